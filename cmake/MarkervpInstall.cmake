@@ -4,8 +4,8 @@
 #   lib/libmarkervp_*.a        the libraries
 #   include/markervp/<root>/   one include root for each layer, as in the source tree
 #   lib/cmake/markervp/        find_package(markervp)
-#   share/markervp/            program/ and platform/ are templates; linux/ has Linux applications; rtl/ has the IP in SystemVerilog; chip/ builds programs for
-#                              the chip; markervp.gdb has commands for gdb
+#   share/markervp/            examples/ are to copy; rtl/ has the IP in SystemVerilog; chip/ builds programs for the chip;
+#                              markervp.gdb has commands for gdb
 include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/markervp")
 set(header_folder "${CMAKE_INSTALL_INCLUDEDIR}/markervp")
@@ -96,9 +96,7 @@ foreach(wing chip facts fpga marker result trace)
 endforeach()
 
 install(TARGETS hybrid improved ps-only blink two-cores exercise notebook LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/markervp/programs")
-install(DIRECTORY sw/template/ DESTINATION "${data_folder}/program")
-install(DIRECTORY platform/template/ DESTINATION "${data_folder}/platform")
-install(DIRECTORY sw/linux/ DESTINATION "${data_folder}/linux")
+install(DIRECTORY examples DESTINATION "${data_folder}")
 install(DIRECTORY sw/freertos/ DESTINATION "${data_folder}/freertos")
 # The IP in SystemVerilog, a folder each.
 file(GLOB rtl_files CONFIGURE_DEPENDS models/pl/*/rtl/*.sv)

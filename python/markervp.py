@@ -11,7 +11,7 @@
         board.wait_for("axi_gpio_0.GPIO_DATA == 0x100", timeout="1 ms")
 
 The program is $MARKERVP, or `markervp` in the PATH. What it refuses is a markervp.Error with its message. Nothing is computed
-here but the metrics of a run: every figure comes from result.json or a sweep's files.
+here: every figure comes from the program, result.json or a sweep's files.
 """
 import collections
 import contextlib
@@ -19,7 +19,6 @@ import csv
 import difflib
 import functools
 import json
-import math
 import os
 import pathlib
 import re
@@ -30,7 +29,7 @@ import sqlite3
 import subprocess
 import tempfile
 
-__all__ = ["Beat", "Error", "MMIO", "Overlay", "Run", "Session", "Sweep", "allocate", "explore", "program", "read", "read_sweep", "run", "sweep", "write_study"]
+__all__ = ["Beat", "Error", "MMIO", "Overlay", "Run", "Session", "Sweep", "allocate", "explore", "figures", "program", "read", "read_sweep", "run", "sweep", "write_study"]
 
 _points_failed = 4
 
@@ -92,8 +91,8 @@ class Run:
 
     @functools.cached_property
     def metrics(self):
-        """Every metric of the run by name, as sweeps have them."""
-        return _metrics(self.result)
+        """Every metric of the run by name, as sweeps have them: `markervp metrics --of`."""
+        return json.loads(_call(["metrics", "--of", self.file, "--json"]))
 
     def __getitem__(self, path):
         member = _member(self.result, path)
@@ -132,74 +131,6 @@ def _member(value, path):
 def _name_of(item):
     name = item.get("name") if isinstance(item, dict) else None
     return name if isinstance(name, str) else None
-
-
-def _numbers(value, path):
-    """Each number and truth below a value, with its path: in C++ walk() of platform/result/metrics.cpp."""
-    if isinstance(value, (int, float)):
-        if math.isfinite(value):
-            yield path, float(value)
-    elif isinstance(value, dict):
-        for name, item in value.items():
-            yield from _numbers(item, f"{path}.{name}")
-    elif isinstance(value, list):
-        for i, item in enumerate(value):
-            yield from _numbers(item, f"{path}.{_name_of(item) or i}")
-
-
-def _numbers_of_frame(frame):
-    for name, value in frame.items():
-        if name == "markers":
-            yield "frames.markers", float(len(value))
-            for marker in value:
-                for figure in ("error", "reprojection_px", "iterations"):
-                    yield from _numbers(marker.get(figure), f"frames.{figure}")
-        elif name not in ("index", "scene_marker", "further_scene_markers") and not (name == "time_us" and "gave_up" in frame):
-            yield from _numbers(value, f"frames.{name}")
-
-
-def _metrics_of_frames(frames):
-    gathered = {}
-    for frame in frames:
-        for name, value in _numbers_of_frame(frame):
-            gathered.setdefault(name, []).append(value)
-    for name, values in gathered.items():
-        yield name + ".mean", functools.reduce(lambda total, value: total + value, values, 0.0) / len(values)
-        yield name + ".max", max(values)
-    found = [any(marker.get("id") == frame["scene_marker"] for marker in frame.get("markers", [])) for frame in frames
-             if "scene_marker" in frame]
-    if found:
-        yield "summary.detection_rate", sum(found) / len(found)
-
-
-def _metrics_of_timing(modules):
-    missed = [module for module in modules if not module.get("met", True)]
-    unknown = sum(module.get("frequency_mhz", 0) <= module.get("fmax_high_mhz", 0) for module in missed)
-    yield "timing.failed", float(len(missed) - unknown)
-    yield "timing.unknown", float(unknown)
-
-
-def _metrics_of_verdict(verdict):
-    for name, part in verdict.items():
-        path, holds = ("verdict.feasible", part) if name == "feasible" else (f"verdict.{name}.holds", part.get("holds"))
-        if isinstance(holds, str):
-            yield path, {"yes": 1.0, "unknown": 0.5}.get(holds, 0.0)
-
-
-def _metrics(result):
-    """What metrics_of() of platform/result/metrics.cpp makes of a result; a test compares the two. Those of one name are added up."""
-    found = {}
-    for name, value in result.items():
-        if name in ("provenance", "configuration", "schema"):
-            continue
-        figures = list(_metrics_of_frames(value) if name == "frames" else _numbers(value, name))
-        if name == "timing" and "modules" in value:
-            figures += _metrics_of_timing(value["modules"])
-        if name == "verdict":
-            figures += _metrics_of_verdict(value)
-        for path, figure in figures:
-            found[path] = found[path] + figure if path in found else figure
-    return found
 
 
 class Sweep:
@@ -284,6 +215,12 @@ def _text(value):
 def run(inputs=(), set=None, output="out", options=()):
     """Runs the platform on inputs, as `markervp run` names them. `options` go to `markervp run` as they are."""
     return _run(["run", *inputs, *options], output, set)
+
+
+def figures(design=None):
+    """What the numbers of a run are, and those that a design finds of its own: dictionaries with path, unit, title, meaning, and
+    better (1: more, -1: less). `*` in a path is any name."""
+    return json.loads(_call(["metrics", "--json", *(["--design", design] if design else [])]))
 
 
 def read(folder):

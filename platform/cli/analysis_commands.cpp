@@ -1,11 +1,14 @@
 #include <algorithm>
 
+#include <chip/run/simulation.h>
 #include <cli/commands.h>
 #include <cli/program.h>
 #include <cli/sweep_command.h>
 #include <result/console.h>
+#include <result/figures.h>
 #include <result/metrics.h>
 #include <result/page/report_page.h>
+#include <result/table.h>
 #include <study/compare.h>
 #include <study/named_point.h>
 #include <study/pareto.h>
@@ -68,7 +71,44 @@ std::vector<study::Objective> known_objectives(const study::Results& results) {
 
 }  // namespace
 
+namespace {
+
+/// The values of a run: {name: value}, or a table of those whose names have `part` in them.
+std::string values_text(const MetricsOptions& options) {
+  const result::Metrics metrics = study::read_comparable(*options.run).metrics;
+  study::Json json = study::Json::object();
+  result::TextTable table({"metric", "value", "unit"});
+  for (std::size_t i = 0; i < metrics.names().size(); ++i) {
+    const std::string& name = metrics.names()[i];
+    if (name.find(options.part) == std::string::npos) continue;
+    json[name] = metrics.values()[i];
+    table.add({name, result::readable(metrics.values()[i]), result::unit_of_metric(name)});
+  }
+  if (json.empty()) {
+    result::check_metric(options.part, {});
+    throw vp::InputError("'" + *options.run + "' has no metric '" + options.part + "'");
+  }
+  return options.json ? json.dump() + "\n" : table.text();
+}
+
+}  // namespace
+
 int list_metrics(const MetricsOptions& options, std::ostream& out) {
+  if (options.run) {
+    out << values_text(options);
+    return done;
+  }
+  if (options.design) {
+    vp::Configuration configuration;
+    configuration.set("design", *options.design, "--design");
+    SimulationOptions shown;
+    shown.is_only_shown = true;
+    build(configuration, shown);
+  }
+  if (options.json || options.markdown) {
+    out << (options.json ? result::figures_json().dump() + "\n" : result::metric_markdown());
+    return done;
+  }
   out << result::metric_table(options.part);
   if (options.part.empty())
     out << "\n* is any name; sweep.csv has them all. Constraints, objectives and figures may "

@@ -111,9 +111,15 @@ void add_sweep_worker(CLI::App& app, SweepWorkerOptions& target) {
 }
 
 void add_metrics(CLI::App& app, MetricsOptions& target) {
-  CLI::App* command = app.add_subcommand("metrics", "list what sweeps can be judged by");
+  CLI::App* command = app.add_subcommand("metrics", "list the figures of runs, or those of one");
   command->add_option("NAME", target.part, "only those that have this in their name")
       ->type_name("");
+  CLI::Option* run =
+      command->add_option("--of", target.run, "show the values that a run has")->type_name("DIR");
+  command->add_option("--design", target.design, "list what this design finds, too")
+      ->type_name("NAME");
+  CLI::Option* json = command->add_flag("--json", target.json, "for programs");
+  command->add_flag("--markdown", target.markdown, "as docs/figures.md")->excludes(json, run);
 }
 
 void add_pareto(CLI::App& app, ParetoOptions& target) {

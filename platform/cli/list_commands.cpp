@@ -8,6 +8,7 @@
 #include <fpga/power/design_estimate.h>
 #include <fpga/power/power_table.h>
 #include <result/console.h>
+#include <result/figures.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
@@ -426,6 +427,7 @@ std::unique_ptr<Simulation> build(vp::Configuration& configuration,
                                   const SimulationOptions& options) {
   const vp::Configuration::Scope scope(configuration);
   auto simulation = std::make_unique<Simulation>(options);
+  result::declare(simulation->work());
   configuration.check_unused();
   return simulation;
 }

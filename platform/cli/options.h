@@ -146,7 +146,11 @@ struct DesignsOptions {
 
 /// `markervp metrics`.
 struct MetricsOptions {
-  std::string part;  ///< of their names; empty: all
+  std::string part;                   ///< of their names; empty: all
+  std::optional<std::string> run;     ///< whose values are shown: a folder, or a result.json
+  std::optional<std::string> design;  ///< whose own figures are listed, too
+  bool json = false;
+  bool markdown = false;
 };
 
 /// `markervp config`.

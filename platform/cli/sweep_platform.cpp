@@ -11,6 +11,7 @@
 #include <host/process.h>
 #include <pl/common/known_frames.h>
 #include <ps/cpu/program.h>
+#include <result/figures.h>
 #include <study/axes.h>
 #include <study/inputs.h>
 #include <vp/error.h>
@@ -37,9 +38,10 @@ std::string last_line(const std::string& text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
-Json to_json(const std::vector<vp::ParameterDescription>& parameters,
-             const facts::InputNeed& input) {
+Json to_json(const std::vector<vp::ParameterDescription>& parameters, const facts::InputNeed& input,
+             const facts::Work& work) {
   Json json;
+  json["figures"] = result::own_figures_json(work);
   json["input"] = {input.kind, input.bytes, input.shape};
   json["parameters"] = Json::array();
   for (const vp::ParameterDescription& p : parameters)
@@ -49,6 +51,7 @@ Json to_json(const std::vector<vp::ParameterDescription>& parameters,
 
 study::Elaborated elaborated_from(const Json& json) {
   study::Elaborated result;
+  result.figures = json.at("figures");
   const Json& input = json.at("input");
   result.input = {input.at(0).get<std::string>(), input.at(1).get<std::size_t>(),
                   input.at(2).get<std::string>()};
@@ -67,7 +70,7 @@ Json built(vp::Configuration& configuration, const std::optional<std::string>& p
   SimulationOptions options;
   options.program = program;
   const auto simulation = cli::build(configuration, options);
-  return to_json(configuration.parameters(), simulation->input());
+  return to_json(configuration.parameters(), simulation->input(), simulation->work());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <facts/figure.h>
 #include <nlohmann/json_fwd.hpp>
 
 /// A unit of work: what a design delivers again and again (a frame, a packet, a block of samples),
@@ -70,10 +71,11 @@ struct InputNeed {
 
 /// Something that holds for a unit or not, and that a run counts.
 struct Tally {
-  std::string name;       ///< "echoes"
-  std::string with;       ///< of the units for which it holds: "with an echo"
-  std::string without;    ///< of one for which it does not: "no echo"
-  bool is_figure = true;  ///< `summary` of result.json has it; else units list it
+  std::string name;                 ///< "echoes"
+  std::string with;                 ///< of the units for which it holds: "with an echo"
+  std::string without;              ///< of one for which it does not: "no echo"
+  bool is_figure = true;            ///< `summary` of result.json has it; else units list it
+  Better better = Better::neither;  ///< many of them, or few
 };
 
 /// What a design does.
@@ -84,19 +86,23 @@ struct Work {
   std::string plural = {};      ///< empty: `unit` and an s
   std::string given = "input";  ///< what comes for one at a fixed rate: "sample"
   std::vector<Tally> tallies = {};
+  /// What report() finds of each unit. The path is one name: "snr".
+  std::vector<Figure> figures = {};
   /// Of inputs that were given more than once (UnitReport::settling_showings).
   std::string settled = "were given before, so that what the logic learned from each is its own";
 
   /// "1 packet", "2 packets". Of a design that delivers nothing it counts runs.
   std::string counted(std::uint64_t count) const;
   std::string many() const { return plural.empty() ? unit + "s" : plural; }
+  /// Its tallies and figures by their paths in a run: "summary.echoes", "frames.figures.snr".
+  std::vector<Figure> declared() const;
 };
 
-/// A number that a design finds of a unit. The name is a key of `figures`, once in a unit.
+/// A number that a design finds of a unit, once in a unit.
 struct UnitFigure {
-  std::string name;  ///< "snr"
-  std::string unit;  ///< "dB"; "1" for a count or a ratio
+  std::string name;  ///< of Work::figures
   double value = 0;
+  std::string unit = {};  ///< the platform takes it from the declaration
 };
 
 /// What an application says of a unit of work beside what every design does.

@@ -1,9 +1,6 @@
-#include <algorithm>
-
 #include <result/metrics.h>
-#include <result/table.h>
-#include <vp/error.h>
-#include <vp/text.h>
+
+#include <algorithm>
 
 #include <cmath>
 #include <cstring>
@@ -88,6 +85,11 @@ std::vector<UnitMetrics>& unit_metrics() {
   return registered;
 }
 
+std::vector<facts::Figure>& declared_by_application() {
+  static std::vector<facts::Figure> declared;
+  return declared;
+}
+
 /// Whether an application has read the member.
 bool is_taken(const std::string& name, const Json& value, const UnitMetrics::Found& found) {
   const auto& readers = unit_metrics();
@@ -119,24 +121,25 @@ void find_in_frames(const Json& frames, const Found& found) {
   for (const auto& [name, gathered] : rates) found(name, gathered.sum / gathered.count);
 }
 
+using Found = UnitMetrics::Found;
+
 /// A limit that is only known to be no lower says nothing about a clock above it.
-template <class Found>
-void find_in_timing(const Json& modules, const Found& found) {
+void find_in_timing(const Json& timing, const Found& found) {
+  if (!timing.contains("modules")) return;
   double failed = 0;
   double unknown = 0;
-  for (const Json& module : modules) {
+  for (const Json& module : timing["modules"]) {
     if (module.value("met", true)) continue;
     const bool has_limit = module.contains("fmax_high_mhz");
     const bool missed =
         has_limit && module.value("frequency_mhz", 0.0) > module.value("fmax_high_mhz", 0.0);
     (missed ? failed : unknown) += 1;
   }
-  found("timing.failed", failed);
-  found("timing.unknown", unknown);
+  found("failed", failed);
+  found("unknown", unknown);
 }
 
 /// What is no, unknown and yes becomes 0, 0.5 and 1.
-template <class Found>
 void find_in_verdict(const Json& verdict, const Found& found) {
   const auto add = [&](const std::string& path, const Json& holds) {
     const auto* text = holds.get_ptr<const std::string*>();
@@ -144,10 +147,33 @@ void find_in_verdict(const Json& verdict, const Found& found) {
   };
   for (const auto& [name, part] : verdict.items()) {
     if (name == "feasible")
-      add("verdict.feasible", part);
+      add(name, part);
     else if (part.is_object() && part.contains("holds"))
-      add("verdict." + name + ".holds", part["holds"]);
+      add(name + ".holds", part["holds"]);
   }
+}
+
+/// What a part of result.json says beside its numbers.
+struct Derived {
+  const char* part;
+  void (*find)(const Json& part, const Found& found);
+  std::vector<facts::Figure> figures;  ///< below the part
+};
+
+const std::vector<Derived>& derived() {
+  using facts::Better;
+  static const std::vector<Derived> all{
+      {"timing",
+       find_in_timing,
+       {{"failed", "1", "modules above the limit of their clock", Better::less},
+        {"unknown", "1", "modules above a clock that is known to work, with no known limit",
+         Better::less}}},
+      {"verdict",
+       find_in_verdict,
+       {{"feasible", "1", "1 if every part of the verdict holds, 0.5 if one is unknown, else 0",
+         Better::more},
+        {"*.holds", "1", "the same of one part: ran, job, fits, clocks or timing", Better::more}}}};
+  return all;
 }
 
 /// Calls found(path, value) for each figure, in the order of the result.
@@ -161,12 +187,37 @@ void find_figures(const Json& result, const Found& found) {
       std::string path = name;
       walk(value, path, found);
     }
-    if (name == "timing" && value.contains("modules")) find_in_timing(value["modules"], found);
-    if (name == "verdict") find_in_verdict(value, found);
+    for (const Derived& more : derived()) {
+      if (name != more.part) continue;
+      more.find(value, [&](const std::string& end, double figure) {
+        found(std::string(more.part) + "." + end, figure);
+      });
+    }
   }
 }
 
 }  // namespace
+
+UnitMetrics::UnitMetrics(bool (*take_member)(const std::string&, const Json&, const Found&),
+                         void (*find_rates)(const Json&, const Found&),
+                         const std::vector<facts::Figure>& declared)
+    : take(take_member), rates(find_rates) {
+  unit_metrics().push_back(*this);
+  auto& all = declared_by_application();
+  all.insert(all.end(), declared.begin(), declared.end());
+}
+
+const std::vector<facts::Figure>& application_figures() {
+  return declared_by_application();
+}
+
+std::vector<facts::Figure> derived_figures() {
+  std::vector<facts::Figure> all;
+  for (const Derived& more : derived()) {
+    for (const facts::Figure& figure : more.figures) all.push_back(figure.below(more.part));
+  }
+  return all;
+}
 
 Metrics::Metrics(Figures figures) {
   const auto by_name = [](const auto& a, const auto& b) { return a.first < b.first; };
@@ -282,184 +333,6 @@ Metrics MetricsReader::read(const Json& result) {
   find_figures(result, [&](const std::string& path, double) { paths_.push_back(path); });
   for (const std::string& path : paths_) order_.push_back(before_.place_of(path));
   return before_;
-}
-
-namespace {
-
-constexpr std::string_view frames = "frames.";
-constexpr const char* frame_ends[] = {".mean", ".max"};
-
-/// Whether `name` is of the pattern, whose `*` represents at least one character.
-bool fits(std::string_view pattern, std::string_view name) {
-  const std::size_t star = pattern.find('*');
-  if (star == std::string_view::npos) return pattern == name;
-  if (name.size() <= star || name.substr(0, star) != pattern.substr(0, star)) return false;
-  const std::string_view rest = pattern.substr(star + 1);
-  for (std::size_t end = star + 1; end <= name.size(); ++end) {
-    if (fits(rest, name.substr(end))) return true;
-  }
-  return false;
-}
-
-/// Of a metric of frames: without its end. Empty if it has none.
-std::string_view without_end(std::string_view name) {
-  for (const std::string_view end : frame_ends) {
-    if (name.size() > end.size() && name.substr(name.size() - end.size()) == end)
-      return name.substr(0, name.size() - end.size());
-  }
-  return {};
-}
-
-std::vector<std::string> names_without_star() {
-  std::vector<std::string> names;
-  for (const MetricKind& kind : metric_kinds()) {
-    const std::string pattern = kind.pattern;
-    if (pattern.find('*') != std::string::npos) continue;
-    if (pattern.rfind(frames, 0) != 0) {
-      names.push_back(pattern);
-      continue;
-    }
-    for (const char* end : frame_ends) names.push_back(pattern + end);
-  }
-  return names;
-}
-
-}  // namespace
-
-namespace {
-
-std::vector<MetricKind>& known_kinds() {
-  static std::vector<MetricKind> kinds{
-      {"summary.frames", "", "frames that the software worked on"},
-      {"summary.delivered", "", "of them with a result"},
-      {"summary.fps.mean", "1/s", "frame rate: results over the time that they took"},
-      {"summary.fps.min", "1/s", "frame rate of the slowest result"},
-      {"summary.fps.max", "1/s", "frame rate of the fastest result"},
-      {"summary.latency_us.mean", "µs", "from the start of a frame to its result"},
-      {"summary.latency_us.max", "µs", "the same of the slowest"},
-      {"summary.power_w.total", "W", "mean power of the chip"},
-      {"summary.power_w.ps", "W", "of it the processing system"},
-      {"summary.power_w.pl", "W", "of it the programmable logic"},
-      {"summary.power_w.static", "W", "of it the device at rest"},
-      {"summary.energy_per_frame_mj", "mJ", "energy of the chip for one frame"},
-      {"summary.unpublished", "", "frames of which the software said nothing, if there are any"},
-      {"limit.percent.*", "%",
-       "share of the run in which a stage, or the camera, sets the frame rate"},
-      {"limit.stages_us", "µs", "time of the stages that set the frame rate"},
-      {"limit.period_us", "µs", "time from result to result that they set"},
-      {"camera.rate_fps", "1/s", "rate of the camera"},
-      {"camera.offered", "", "frames that came from it"},
-      {"camera.dropped", "", "of them those that found the software busy"},
-      {"camera.delivered_fps", "1/s", "results over the time of the camera's frames"},
-      {"camera.utilisation_percent", "%",
-       "share of the camera's period in which the software is busy"},
-      {"camera.slack_us.mean", "µs", "what a frame leaves of the camera's period"},
-      {"camera.slack_us.min", "µs", "the same of the longest frame"},
-      {"frames.counts.*", "", "what the design counts of a frame; some of it is lost work"},
-      {"frames.figures.*", "", "what the design finds of a frame, in the unit that it says"},
-      {"frames.time_us.frame", "µs", "from the start of a frame to its result"},
-      {"frames.time_us.*", "µs", "time of a stage"},
-      {"frames.energy_mj.total", "mJ", "energy of the chip for the frame"},
-      {"frames.energy_mj.*", "mJ", "of it one group of modules"},
-      {"power.total_w.nominal", "W", "mean power of the chip"},
-      {"power.total_w.low", "W", "lower end of its error band"},
-      {"power.total_w.high", "W", "upper end of its error band"},
-      {"power.ambient_c", "°C", "temperature around the board"},
-      {"power.junction_c", "°C", "temperature of the die"},
-      {"power.rails.*", "W", "power of a supply rail"},
-      {"power.modules.*.w", "W", "power of a module"},
-      {"power.modules.*.mj", "mJ", "energy of a module for one frame"},
-      {"resources.fits", "", "1 if the device has room for the design"},
-      {"resources.total.*", "", "LUT, FF, BRAM36 or DSP that the design takes"},
-      {"resources.available.*", "", "those that the device has"},
-      {"resources.modules.*.uncertainty_percent", "%", "how far its figures may be off"},
-      {"resources.modules.*", "", "those that a module takes"},
-      {"timing.met", "", "1 if every module is fast enough for its clock"},
-      {"timing.failed", "", "modules above the limit of their clock"},
-      {"timing.unknown", "", "modules above a clock that is known to work, with no known limit"},
-      {"timing.modules.*.frequency_mhz", "MHz", "highest clock that a module had"},
-      {"timing.modules.*.reachable_mhz", "MHz", "clock below that limit that the PLLs make"},
-      {"timing.modules.*.fmax_mhz", "MHz", "clock up to which it works"},
-      {"timing.modules.*.margin_percent", "%", "by how much its clock could rise"},
-      {"timing.modules.*.fmax_high_mhz", "MHz", "clock above which it does not work"},
-      {"timing.modules.*.met", "", "1 if the module is fast enough"},
-      {"clocks.legal", "", "1 if the device allows and can make every clock"},
-      {"clocks.list.*.made.*", "", "how PLL and dividers make a clock"},
-      {"clocks.list.*_mhz", "MHz", "a clock: wish, what was made, its limit, its neighbours"},
-      {"clocks.list.*.margin_percent", "%", "by how much a clock could rise"},
-      {"clocks.list.*", "", "1 if a clock is within its limit, or can be made"},
-      {"verdict.feasible", "",
-       "1 if every part of the verdict holds, 0.5 if one is unknown, else 0"},
-      {"verdict.*.holds", "", "the same of one part: ran, job, fits, clocks or timing"},
-      {"verdict.*.margin_percent", "%", "how far the part is from its limit; negative: beyond"},
-      {"program_end.exit_code", "", "what the PS program returned"},
-      {"program_end.time_us", "µs", "when it ended"},
-  };
-  return kinds;
-}
-
-std::vector<std::string>& known_shown() {
-  static std::vector<std::string> shown;
-  return shown;
-}
-
-}  // namespace
-
-const std::vector<MetricKind>& metric_kinds() {
-  return known_kinds();
-}
-
-UnitMetrics::UnitMetrics(bool (*take_member)(const std::string&, const Json&, const Found&),
-                         void (*find_rates)(const Json&, const Found&),
-                         std::initializer_list<MetricKind> kinds,
-                         std::initializer_list<const char*> shown)
-    : take(take_member), rates(find_rates) {
-  unit_metrics().push_back(*this);
-  known_kinds().insert(known_kinds().end(), kinds);
-  known_shown().insert(known_shown().end(), shown.begin(), shown.end());
-}
-
-const std::vector<std::string>& shown_metrics() {
-  return known_shown();
-}
-
-const MetricKind* kind_of_metric(const std::string& name) {
-  const bool of_frames = name.rfind(frames, 0) == 0;
-  const std::string_view wanted = of_frames ? without_end(name) : std::string_view(name);
-  const auto& kinds = metric_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const MetricKind& kind) {
-    return !wanted.empty() && fits(kind.pattern, wanted);
-  });
-  return found == kinds.end() ? nullptr : &*found;
-}
-
-std::string unit_of_metric(const std::string& text) {
-  const MetricKind* const kind = kind_of_metric(text);
-  return kind == nullptr || text.find_first_of(" +-*/()") != std::string::npos ? "" : kind->unit;
-}
-
-void check_metric(const std::string& name, const std::vector<std::string>& others) {
-  if (kind_of_metric(name) || std::find(others.begin(), others.end(), name) != others.end()) return;
-  std::vector<std::string> known = names_without_star();
-  known.insert(known.end(), others.begin(), others.end());
-  const std::string nearest = vp::nearest_match(name, known);
-  throw vp::InputError(
-      "unknown metric '" + name + "'" +
-      (nearest.empty() ? ": 'markervp metrics' lists them" : "; did you mean '" + nearest + "'?"));
-}
-
-std::string metric_table(const std::string& part) {
-  TextTable table({"metric", "unit", "meaning"});
-  bool any = false;
-  for (const MetricKind& kind : metric_kinds()) {
-    const bool of_frames = std::string(kind.pattern).rfind(frames, 0) == 0;
-    const std::string name = kind.pattern + std::string(of_frames ? ".mean|max" : "");
-    if (name.find(part) == std::string::npos && kind_of_metric(part) != &kind) continue;
-    table.add({name, kind.unit, kind.meaning});
-    any = true;
-  }
-  if (!any) check_metric(part, {});
-  return table.text();
 }
 
 }  // namespace platform::result

@@ -10,32 +10,21 @@
 #include <utility>
 #include <vector>
 
+#include <facts/figure.h>
 #include <nlohmann/json.hpp>
 
 namespace platform::result {
 
 using Json = nlohmann::ordered_json;
 
-/// Metrics of one kind: what they count, and in what.
-struct MetricKind {
-  /// `*` represents a name, or several with dots between: "power.modules.*.w".
-  const char* pattern;
-  const char* unit;     ///< empty: a count or a truth
-  const char* meaning;  ///< a phrase
-};
-
-/// All that a result may have. Those of frames stand here without their end: ".mean", ".max".
-const std::vector<MetricKind>& metric_kinds();
-
-/// How an application reads what it adds to a unit's entry in result.json, what its metrics mean,
-/// and those that a page shows where a study does not say. One object of the application, before
-/// main(), registers itself.
+/// How an application reads what it adds to a unit's entry in result.json, and what it declares of
+/// that. One object of the application, before main(), registers itself.
 struct UnitMetrics {
   using Found = std::function<void(const std::string& name, double value)>;
 
   UnitMetrics(bool (*take_member)(const std::string&, const Json&, const Found&),
               void (*find_rates)(const Json&, const Found&),
-              std::initializer_list<MetricKind> kinds, std::initializer_list<const char*> shown);
+              const std::vector<facts::Figure>& declared);
 
   /// Finds the figures in a member: `name` becomes frames.`name`.mean and .max. False: it is none
   /// of the application's, and is read as all others are.
@@ -44,22 +33,10 @@ struct UnitMetrics {
   void (*rates)(const Json& unit, const Found& found);
 };
 
-/// Metrics of the application that a page shows where a study does not say.
-const std::vector<std::string>& shown_metrics();
-
-/// Null if no result has a metric of this name.
-const MetricKind* kind_of_metric(const std::string& name);
-
-/// The unit of an expression that is one metric; empty for any other.
-std::string unit_of_metric(const std::string& text);
-
-/// Throws vp::InputError for a name that is neither a metric nor one of `others`: "unknown metric
-/// 'x'; did you mean 'y'?".
-void check_metric(const std::string& name, const std::vector<std::string>& others);
-
-/// The kinds whose pattern has `part` in it, or that have a metric of that name, as a table; empty:
-/// all. Throws vp::InputError with the nearest if missing.
-std::string metric_table(const std::string& part);
+/// Those of applications.
+const std::vector<facts::Figure>& application_figures();
+/// Those that are calculated from others in result.json.
+std::vector<facts::Figure> derived_figures();
 
 /// Figures by name: a path into result.json. The points of a sweep have the same names, and share
 /// them: a figure of a point then costs eight bytes.

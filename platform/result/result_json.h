@@ -10,7 +10,7 @@
 #include <facts/result.h>
 #include <facts/summary.h>
 #include <host/output_folder.h>
-#include <result/verdict.h>
+#include <result/members.h>
 #include <vp/file.h>
 #include <nlohmann/json.hpp>
 
@@ -37,23 +37,9 @@ class ResultSink {
 /// finish() has written all of it, not before. Room for it is reserved as frames come: if the disk
 /// becomes full, the frames until then can still be written.
 ///
-/// Real numbers are rounded to these decimal places, then written as the shortest text that reads
-/// back as the same double:
-///
-///   | Key                                          | Unit   | Places |
-///   |----------------------------------------------|--------|--------|
-///   | figures of a unit                            |        | 9      |
-///   | time_us, latency_us (6 places are 1 ps)      | us     | 6      |
-///   | fps                                          | 1/s    | 6      |
-///   | power: w, total_w, rails; power_w            | W      | 12     |
-///   | mj, energy_mj, energy_per_frame_mj           | mJ     | 12     |
-///   | ambient_c, junction_c                        | C      | 6      |
-///   | frequency_mhz, fmax_mhz                      | MHz    | 6      |
-///   | margin_percent                               | %      | 3      |
-///   | bram36                                       |        | 1      |
-///   | provenance.wall_time_s                       | s      | 3      |
-///
-/// What an application adds has places of its own (facts::UnitExtra::add_members).
+/// Its members are declared in result_members.h. Real numbers are rounded to the decimal places
+/// that are declared with them, then written as the shortest text that reads back as the same
+/// double.
 class ResultWriter : public ResultSink {
  public:
   /// Throws vp::OutputError if the disk has no room for a result. `folder` outlives this.
@@ -77,34 +63,8 @@ class ResultWriter : public ResultSink {
   std::uint64_t bytes_ = 0;  ///< of whole frames in it
 };
 
-using Json = nlohmann::ordered_json;
-
-/// `value` with that many decimal places: what result.json holds. Never -0. The table is at
-/// ResultWriter.
-double rounded(double value, int places);
-
 /// One element of `frames`.
-Json to_json(const facts::UnitReport& frame);
-Json to_json(const facts::Summary& summary, const facts::Work& work);
-/// `camera`: how the program kept up with its rate.
-Json camera_json(const facts::CameraReport& camera, const facts::Summary& summary);
-/// The keys of `time_us` in the order of the flow; `part_of` names the stage that contains one.
-Json stages_json(const facts::Summary& summary);
-Json to_json(const facts::Limit& limit, const facts::Work& work);
-Json to_json(const facts::ProgramEnd& end);
-Json to_json(const facts::Provenance& provenance);
-
-/// Of result.json.
-constexpr int result_schema = 1;
-
-/// Adds what ran.
-void add_run(Json& json, const facts::RunFacts& facts);
-
-/// Adds how it went.
-void add_end(Json& json, const facts::RunFacts& facts, const std::vector<std::string>& warnings);
-
-/// Adds what is behind the frames: summary, verdict, power, resources, timing, clocks.
-void add_figures(Json& json, const facts::RunFacts& facts, const facts::Summary& summary);
+Json to_json(const facts::UnitReport& unit);
 
 /// What ResultWriter writes, in memory: member for member result.json as it reads back, without
 /// `provenance` and `configuration`, which its maker knows.
@@ -124,20 +84,5 @@ class ResultDocument : public ResultSink {
   Json frames_ = Json::array();
   Json json_;
 };
-
-/// `energy_mj` of a frame: the total first.
-Json energy_json(const std::vector<facts::GroupEnergy>& energy);
-/// `power_w` of the summary.
-Json power_summary_json(const facts::PowerReport& power);
-
-Json to_json(const facts::PowerReport& power);
-Json to_json(const facts::ResourceReport& resources);
-Json to_json(const facts::TimingReport& timing);
-Json to_json(const facts::ClockReport& clocks);
-/// `feasible`, and by part `holds` ("yes", "no", "unknown") and what else is known.
-Json to_json(const Verdict& verdict);
-
-/// Places of watts and millijoules: sums of what is in the file hold to 1e-9.
-constexpr int energy_places = 12;
 
 }  // namespace platform::result

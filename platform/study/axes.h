@@ -10,6 +10,7 @@
 #include <vp/configuration.h>
 #include <vp/expression.h>
 #include <vp/unit.h>
+#include <nlohmann/json.hpp>
 
 namespace platform::study {
 
@@ -37,6 +38,8 @@ vp::ExpressionValue value_of(const ParameterKind& kind, const std::string& text)
 struct Elaborated {
   std::vector<vp::ParameterDescription> parameters;
   facts::InputNeed input;  ///< what its design takes
+  /// Figures that its design declares (result::own_figures_json).
+  nlohmann::ordered_json figures = nlohmann::ordered_json::array();
 };
 
 /// The parameters of a platform.

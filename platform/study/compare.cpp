@@ -5,6 +5,7 @@
 #include <set>
 
 #include <host/document.h>
+#include <result/figures.h>
 #include <result/table.h>
 #include <study/kept_result.h>
 #include <study/report.h>
@@ -28,6 +29,7 @@ void add_facts(const Json& result, Comparable& run) {
   std::string text;
   for (const std::string& input : inputs) text += (text.empty() ? "" : " ") + input;
   run.configuration["inputs"] = text;
+  result::declare(result.value("figures", Json::array()));
   run.metrics = result::metrics_of(result);
 }
 
@@ -35,6 +37,13 @@ std::string change(double a, double b) {
   if (a == 0) return "";
   const double percent = 100 * (b - a) / std::fabs(a);
   return (percent > 0 ? "+" : "") + vp::format_fixed(percent, 2) + " %";
+}
+
+/// Whether B is better, as the figure is declared.
+std::string judged(const std::string& metric, double a, double b) {
+  const facts::Figure* figure = result::figures().of(metric);
+  if (!figure || figure->better == facts::Better::neither) return "";
+  return (b > a) == (figure->better == facts::Better::more) ? "better" : "worse";
 }
 
 using Values = std::map<std::string, std::string>;
@@ -106,15 +115,16 @@ std::string compare(const Comparable& a, const Comparable& b) {
     configuration.add({path, x, y});
     ++settings;
   }
-  result::TextTable metrics({"metric", "A", "B", "change"});
+  result::TextTable metrics({"metric", "unit", "A", "B", "change", ""});
   std::size_t figures = 0;
   for (const std::string& name : names(a.metrics, b.metrics)) {
     const double* left = a.metrics.find(name);
     const double* right = b.metrics.find(name);
     const bool both = left && right;
     if (both && *left == *right) continue;
-    metrics.add({name, left ? result::readable(*left) : "-", right ? result::readable(*right) : "-",
-                 both ? change(*left, *right) : ""});
+    metrics.add({name, result::unit_of_metric(name), left ? result::readable(*left) : "-",
+                 right ? result::readable(*right) : "-", both ? change(*left, *right) : "",
+                 both ? judged(name, *left, *right) : ""});
     ++figures;
   }
   std::string text = "A  " + a.name + "\nB  " + b.name + "\n\n";

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include <result/figures.h>
 #include <vp/file.h>
 
 namespace platform::study {
@@ -29,7 +30,8 @@ CREATE TABLE points(key TEXT, position INTEGER PRIMARY KEY, status TEXT, exit_co
 CREATE TABLE parameters(key TEXT REFERENCES points(key), path TEXT, value TEXT, number REAL,
                         PRIMARY KEY(key, path)) WITHOUT ROWID;
 CREATE TABLE constants(path TEXT PRIMARY KEY, value TEXT);
-CREATE TABLE metric_names(id INTEGER PRIMARY KEY, name TEXT UNIQUE, value REAL);
+CREATE TABLE metric_names(id INTEGER PRIMARY KEY, name TEXT UNIQUE, value REAL, unit TEXT,
+                          better TEXT);
 CREATE TABLE runs(key TEXT REFERENCES points(key), engine TEXT, host TEXT, date TEXT,
                   attempt INTEGER, wall_s REAL, cpu_s REAL);
 )";
@@ -269,6 +271,13 @@ void add_points(Database& database, const Results& results, const std::vector<bo
   database.execute("CREATE UNIQUE INDEX points_key ON points(key)");
 }
 
+/// "more", "less"; empty: neither, or nothing declares the metric.
+std::string better_of(const std::string& metric) {
+  const facts::Figure* const figure = result::figures().of(metric);
+  const bool is_judged = figure && figure->better != facts::Better::neither;
+  return is_judged ? facts::to_string(figure->better) : "";
+}
+
 /// Writes the metrics of all points. Returns which points have any.
 std::vector<bool> add_metrics(Database& database, const Results& results) {
   const std::vector<std::string> names = results.metric_names();
@@ -280,10 +289,11 @@ std::vector<bool> add_metrics(Database& database, const Results& results) {
   }
   const std::size_t rows = (differing.size() + row_values - 1) / row_values;
   database.execute(metric_tables(rows).c_str());
-  Insert ids(database, "metric_names", 3);
+  Insert ids(database, "metric_names", 5);
   std::size_t id = 0, next = differing.size();
   for (std::size_t i = 0; i < names.size(); ++i)
-    ids.row(static_cast<std::int64_t>(shared[i] ? next++ : id++), names[i], shared[i]);
+    ids.row(static_cast<std::int64_t>(shared[i] ? next++ : id++), names[i], shared[i],
+            result::unit_of_metric(names[i]), better_of(names[i]));
   Insert values(database, "metric_values", 1 + row_values);
   result::Selection selection(names);
   Shards::Block block;

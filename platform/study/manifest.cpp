@@ -1,6 +1,7 @@
 #include <study/manifest.h>
 
 #include <host/document.h>
+#include <result/figures.h>
 #include <vp/error.h>
 #include <vp/file.h>
 
@@ -109,6 +110,7 @@ Json facts_json(const Manifest& manifest) {
   json["swept"] = manifest.swept;
   if (!manifest.zipped.empty()) json["zipped"] = manifest.zipped;
   if (!manifest.job.empty()) json["job"] = manifest.job;
+  if (!manifest.figures.empty()) json["figures"] = manifest.figures;
   json["metrics"] = manifest.metrics;
   json["objectives"] = manifest.objectives;
   json["constraints"] = manifest.constraints;
@@ -170,6 +172,8 @@ Manifest facts_from(const Json& json, const std::string& origin) {
   manifest.swept = json.at("swept").get<std::vector<std::string>>();
   manifest.zipped = json.value("zipped", std::vector<std::vector<std::string>>());
   manifest.job = json.value("job", "");
+  manifest.figures = json.value("figures", Json::array());
+  result::declare(manifest.figures);
   manifest.metrics = json.at("metrics").get<std::vector<std::string>>();
   manifest.objectives = json.at("objectives").get<std::vector<std::string>>();
   manifest.constraints = json.value("constraints", std::vector<std::string>());

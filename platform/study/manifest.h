@@ -25,6 +25,7 @@ struct Manifest : Origins {
   std::vector<std::string> swept;  ///< paths in order
   std::vector<std::vector<std::string>> zipped;  ///< of them, those that move together
   std::string job;                               ///< see Spec::job; empty: the usual
+  Json figures = Json::array();  ///< that designs declare (result::own_figures_json)
   std::vector<std::string> metrics;
   std::vector<std::string> objectives;
   std::vector<std::string> constraints;  ///< on metrics; those on parameters chose the points

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include <result/metrics.h>
+#include <result/figures.h>
 #include <study/axis_check.h>
 #include <study/contents.h>
 #include <study/expansion.h>
@@ -182,15 +182,24 @@ class Planner {
     }
     for (const std::string& program : programs_) {
       const Setup build{program, spec_.set};
-      if (designs.empty())
-        bases_.push_back({build, ParameterTable(platform_.elaborate(build, spec_.set_where))});
+      if (designs.empty()) bases_.push_back({build, base_of(build)});
       for (const std::string& design : designs) {
         Setup with_design = build;
         with_design.settings["design"] = design;
-        ParameterTable table(platform_.elaborate(with_design, spec_.set_where));
+        ParameterTable table = base_of(with_design);
         bases_.push_back({std::move(with_design), std::move(table)});
       }
     }
+  }
+
+  ParameterTable base_of(const Setup& build) {
+    const Elaborated elaborated = platform_.elaborate(build, spec_.set_where);
+    result::declare(elaborated.figures);
+    for (const Json& figure : elaborated.figures) {
+      auto& known = manifest_.figures;
+      if (std::find(known.begin(), known.end(), figure) == known.end()) known.push_back(figure);
+    }
+    return ParameterTable(elaborated);
   }
 
   void make_axes() {

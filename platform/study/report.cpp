@@ -1,6 +1,7 @@
 #include <study/report.h>
 
 #include <result/console.h>
+#include <result/figures.h>
 #include <result/metrics.h>
 #include <result/page/report_page.h>
 #include <result/table.h>
@@ -55,19 +56,6 @@ constexpr std::size_t most_reasons = 8;
 
 /// Points that the page has: among so many a slider's move takes less than a tenth of a second.
 constexpr std::size_t most_page_points = 20'000;
-
-/// Figures that the page has of every sweep.
-/// What a page shows where the study does not say.
-std::vector<std::string> usual_figures() {
-  std::vector<std::string> figures{"summary.fps.mean",       "summary.latency_us.mean",
-                                   "power.total_w.nominal",  "summary.energy_per_frame_mj",
-                                   "power.junction_c",       "summary.frames",
-                                   "resources.total.lut",    "resources.total.ff",
-                                   "resources.total.bram36", "resources.total.dsp"};
-  const std::vector<std::string>& own = result::shown_metrics();
-  figures.insert(figures.end(), own.begin(), own.end());
-  return figures;
-}
 
 /// The swept parameters that differ.
 std::vector<std::string> decisive(const Results& results) {
@@ -300,7 +288,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
   const Manifest& manifest = results.manifest;
   const std::vector<Objective> objectives = objectives_of(results);
   Columns asked = asked_of(results);
-  for (const std::string& name : usual_figures()) asked.add(name);
+  for (const std::string& name : result::usual_metrics()) asked.add(name);
   const std::vector<Column> columns = asked.take();
   Json json{{"name", manifest.name},
             {"title", manifest.title},
@@ -315,9 +303,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
             {"metrics", Json::array()}};
   for (const vp::Expression& constraint : results.constraints)
     json["constraints"].push_back(constraint.text());
-  for (const Column& column : columns)
-    json["metrics"].push_back(
-        {{"path", column.text}, {"unit", result::unit_of_metric(column.text)}});
+  for (const Column& column : columns) json["metrics"].push_back(result::shown_json(column.text));
   if (!objectives.empty())
     json["influence"] = sensitivity_json(results, objectives.front().figure());
   if (!steps.is_null()) json["steps"] = steps;
@@ -335,7 +321,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
 
 std::vector<vp::Expression> page_figures() {
   std::vector<vp::Expression> figures;
-  for (const std::string& name : usual_figures()) figures.emplace_back(name, name);
+  for (const std::string& name : result::usual_metrics()) figures.emplace_back(name, name);
   return figures;
 }
 
@@ -361,8 +347,8 @@ std::vector<std::string> missing_figures(const Manifest& manifest,
   std::vector<std::string> complaints;
   for (const std::string& name : asked) {
     if (std::binary_search(known.begin(), known.end(), name)) continue;
-    const result::MetricKind* kind = result::kind_of_metric(name);
-    const bool well_spelt = kind && std::string_view(kind->pattern).find('*') == std::string::npos;
+    const facts::Figure* figure = result::figures().of(name);
+    const bool well_spelt = figure && figure->path.find('*') == std::string::npos;
     const std::string nearest = well_spelt ? "" : vp::nearest_match(name, known);
     complaints.push_back("no result has the metric '" + name + "'" +
                          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <result/console.h>
+#include <result/figures.h>
 #include <result/metrics.h>
 #include <result/table.h>
 #include <study/doubt.h>
@@ -244,7 +245,7 @@ void check_names(const Results& results, const vp::Expression& expression) {
         std::any_of(results.rows.begin(), results.rows.end(), has_it))
       continue;
     const std::string nearest = vp::nearest_match(name, known);
-    expression.refuse(name, (result::kind_of_metric(name) ? "no point has '" : "unknown metric '") +
+    expression.refuse(name, (result::figures().of(name) ? "no point has '" : "unknown metric '") +
                                 name + "'" +
                                 (nearest.empty() ? ": 'markervp metrics' lists them"
                                                  : "; did you mean '" + nearest + "'?"));

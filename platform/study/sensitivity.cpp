@@ -1,5 +1,6 @@
 #include <study/sensitivity.h>
 
+#include <result/figures.h>
 #include <result/metrics.h>
 #include <result/table.h>
 #include <study/comparison.h>
@@ -440,9 +441,9 @@ Json effects_json(const StepEffects& effects, const std::string& key) {
   Json json{{"key", key}, {"figures", Json::array()}, {"rows", Json::array()}};
   for (std::size_t f = 0; f < effects.figures.size(); ++f) {
     const std::string& path = effects.figures[f].text();
-    json["figures"].push_back({{"path", path},
-                               {"unit", result::unit_of_metric(path)},
-                               {"base", number(effects.base[f])}});
+    Json figure = result::shown_json(path);
+    figure["base"] = number(effects.base[f]);
+    json["figures"].push_back(figure);
   }
   for (const StepEffects::Row& row : effects.rows) {
     Json changes = Json::array();

@@ -9,6 +9,7 @@ import os
 import pathlib
 import re
 import shutil
+import sqlite3
 import struct
 import subprocess
 import sys
@@ -91,9 +92,40 @@ class Bare(unittest.TestCase):
         self.assertIn("0 bytes are no whole number", self.call("run", "empty.bin", *self.fir, code=2))
 
     def test_a_design_that_declares_too_little(self):
-        for mistake, said, code in (("no_job", "names no job", 2), ("no_unit", "'peak' without a unit", 3),
-                                    ("figure_twice", "'peak' twice", 3), ("unknown_tally", "tally 'silent', which its work() does", 3)):
-            self.assertIn(said, self.call("run", *self.ramp, "--set", f"pl.mistake={mistake}", "--no-report", "-o", "bad", code=code))
+        place = r"08_filter/fir_design.cpp:\d+"
+        for mistake, said, code in (("no_job", "names no job", 2),
+                                    ("no_unit", rf"'frames.figures.peak' \({place}\) has no unit: write \"1\"", 2),
+                                    ("declared_twice", rf"'frames.figures.peak' \(bare/mistaken_fir.cpp:\d+\) is declared twice: first in {place}", 2),
+                                    ("declared_by_the_platform", r"'summary.frames' .* declared in result/run_members.cpp:\d+", 2),
+                                    ("figure_twice", "'peak' twice", 3),
+                                    ("unknown_figure", r"figure 'depth', which its work\(\) does not declare", 3),
+                                    ("unknown_tally", r"tally 'silent', which its work\(\) does", 3)):
+            self.assertRegex(self.call("run", *self.ramp, "--set", f"pl.mistake={mistake}", "--no-report", "-o", "bad", code=code), said)
+
+    def test_a_figure_of_a_design_is_everywhere(self):
+        """It is declared once, in its work()."""
+        said = self.call("run", *self.ramp, "-o", "everywhere")
+        self.assertIn("peak     mean 492 V   min 0 V   max 984 V", said)
+        self.assertIn("frames.figures.peak.mean|max", self.call("metrics", "--design", RAMP))
+        self.assertRegex(self.call("metrics", "peak", "--of", "everywhere"), r"frames.figures.peak.max +\d+ +V")
+        self.call("run", *self.ramp, "--set", "pl.filter.gain=2", "-o", "louder", "--no-report")
+        self.assertRegex(self.call("compare", "everywhere", "louder"), r"frames.figures.peak.max +V +\d+ +\d+ +\+100.00 % +worse")
+        declared, = [figure for figure in self.result("everywhere")["figures"] if figure["path"] == "frames.figures.peak"]
+        self.assertEqual((declared["unit"], declared["better"], declared["meaning"]), ("V", "less", "largest word of a block"))
+        self.study()
+        self.call("sweep", "study.yaml", "-o", "swept")
+        database = sqlite3.connect(self.folder / "swept" / "sweep.sqlite")
+        self.assertEqual(database.execute("select unit, better from metric_names where name = 'frames.figures.peak.mean'").fetchall(),
+                         [("V", "less")])
+        database.close()
+        page = self.folder / "swept" / "report.html"
+        if page.exists():
+            for _ in range(2):  # as it is made, and again without the design
+                self.assertIn('{"path":"frames.figures.peak.mean","title":"Peak","unit":"V","factor":1.0,"better":-1}', page.read_text())
+                self.call("report", "swept")
+            self.assertIn('"path":"frames.figures.peak","unit":"V"', (self.folder / "everywhere" / "report.html").read_text())
+            self.call("report", "everywhere", "louder", "-o", "peaks.html")
+            self.assertRegex((self.folder / "peaks.html").read_text(), r'\{"title":"Peak","unit":"V","better":-1,"a":[\d.]+,"b":[\d.]+\}')
 
     def test_samples_repeat_and_stop(self):
         self.call("run", "samples.bin", *self.fir, "--repeat", "3", "--frames", "5", "--no-report", "-o", "five")

@@ -1,5 +1,5 @@
 #include <chip/system/design_plugin.h>
 
-#include "fir_design.h"
+#include "mistaken_fir.h"
 
 MARKERVP_DESIGN(ramp_design)

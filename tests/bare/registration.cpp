@@ -1,6 +1,6 @@
 #include <chip/system/designs.h>
 
-#include "fir_design.h"
+#include "mistaken_fir.h"
 
 namespace {
 

@@ -37,7 +37,6 @@ platform/cli/rtl_stimuli.cpp 2
 platform/cli/rtl_stimuli.h 2
 sw/hal/include/hal/hal.h 3
 sw/drivers/platform_addresses.h 3
-python/markervp.py 7
 """.strip().splitlines())
 
 

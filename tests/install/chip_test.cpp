@@ -35,7 +35,7 @@ struct Chip {
 BOOST_FIXTURE_TEST_SUITE(chip, Chip)
 
 BOOST_AUTO_TEST_CASE(the_template) {
-  const kit::Outcome made = configure(installed / "share/markervp/program", "chip");
+  const kit::Outcome made = configure(installed / "share/markervp/examples/04_own_program", "chip");
   BOOST_TEST_REQUIRE(made.exit_code == 0, made.out << made.err);
   const kit::Outcome built = installed.run(MARKERVP_CMAKE, {"--build", installed.beside("chip")});
   BOOST_TEST_REQUIRE(built.exit_code == 0, built.out << built.err);
@@ -55,7 +55,8 @@ BOOST_AUTO_TEST_CASE(a_folder_that_is_no_program) {
   const kit::Outcome none = configure("", "chip_none");
   BOOST_TEST(none.exit_code != 0);
   BOOST_TEST(contains(none.err, "-DMARKERVP_CHIP_PROGRAM=FOLDER"), none.err);
-  const kit::Outcome platform = configure(installed / "share/markervp/platform", "chip_platform");
+  const kit::Outcome platform =
+      configure(installed / "share/markervp/examples/10_own_platform", "chip_platform");
   BOOST_TEST(platform.exit_code != 0);
   BOOST_TEST(contains(platform.err, "the models are for the virtual platform"), platform.err);
 }

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(a_breakpoint_with_live_registers) {
     return;
   }
   const Installation& installed = Installation::get();
-  installed.build(installed / "share/markervp/program", "template");
+  installed.build(installed / "share/markervp/examples/04_own_program", "template");
   kit::write_file(installed.beside("session.gdb"),
                   "break on_tick\nrun\nbacktrace 1\nsimtime\nregisters private_timer\n"
                   "peek 0xF8F0060C\nregisters nonsense\nnext\nnext\nprint ticks\npeek 0x41200000\n"

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 struct Designs {
   Designs() {
-    installed.build(installed / "share/markervp/platform/design", "smooth");
+    installed.build(installed / "share/markervp/examples/06_own_ip", "smooth");
     installed.build(project("designs"), "designs");
   }
 

@@ -9,7 +9,7 @@ BOOST_AUTO_TEST_SUITE(linux_applications)
 
 BOOST_AUTO_TEST_CASE(both_examples) {
   const Installation& installed = Installation::get();
-  installed.build(installed / "share/markervp/linux", "linux");
+  installed.build(installed / "share/markervp/examples/05_linux_program", "linux");
   const auto run = [&](const std::string& application) {
     const kit::Outcome outcome = installed.markervp(
         {"run", "--linux", "linux/" + application, "--output", "out_" + application});

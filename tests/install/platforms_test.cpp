@@ -9,7 +9,7 @@ BOOST_AUTO_TEST_SUITE(platforms)
 
 BOOST_AUTO_TEST_CASE(a_processing_system_with_logic_of_ones_own) {
   const Installation& installed = Installation::get();
-  installed.build(installed / "share/markervp/platform", "platform");
+  installed.build(installed / "share/markervp/examples/10_own_platform", "platform");
   const kit::Outcome outcome = installed.run(installed.beside("platform/loopback"), {});
   BOOST_TEST(outcome.exit_code == 0);
   BOOST_TEST(contains(outcome.out, "three packets of 1024 bytes out and back in "), outcome.out);

@@ -11,7 +11,7 @@ namespace {
 
 struct Programs {
   Programs() {
-    installed.build(installed / "share/markervp/program", "template");
+    installed.build(installed / "share/markervp/examples/04_own_program", "template");
     installed.build(project("programs"), "programs");
   }
 

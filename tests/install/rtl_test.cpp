@@ -22,8 +22,8 @@ const char* const camera =
 
 struct Rtl {
   std::string file(const std::string& ip) const {
-    installed.build(installed / "share/markervp/platform/rtl", "my_rtl");
-    return installed.beside("my_rtl/" + ip + ".so");
+    installed.build(installed / "share/markervp/examples/07_own_rtl", "07_own_rtl");
+    return installed.beside("07_own_rtl/" + ip + ".so");
   }
   std::string setting(const std::string& ip) const { return "pl.fidelity." + ip + "=" + file(ip); }
 
@@ -101,6 +101,16 @@ const std::string nothing =
 }  // namespace
 
 BOOST_FIXTURE_TEST_SUITE(rtl, Rtl)
+
+BOOST_AUTO_TEST_CASE(the_example_prints_what_its_readme_shows) {
+  file("corner_detection");
+  const std::string source = MARKERVP_SOURCE;
+  const kit::Outcome outcome =
+      installed.run("/usr/bin/env", {"python3", source + "/tests/examples/examples_test.py",
+                                     installed / "bin/markervp", source + "/examples",
+                                     installed.beside(""), "--only", "07_own_rtl"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.out + outcome.err);
+}
 
 // Each among models of whole frames as far as it goes with them, the detectors together, and the
 // whole pipeline; Verilog and VHDL.

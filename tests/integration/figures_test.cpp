@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "executable.h"
@@ -30,6 +31,14 @@ platform::GreyImage dots() {
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(figures)
+
+BOOST_AUTO_TEST_CASE(the_documentation_lists_every_figure) {
+  const kit::Outcome outcome = Workplace().run({"metrics", "--markdown"});
+  const std::string page =
+      kit::read_file(std::filesystem::path(MARKERVP_SOURCE) / "docs/figures.md");
+  BOOST_TEST((page == outcome.out),
+             "docs/figures.md is old: markervp metrics --markdown > docs/figures.md");
+}
 
 // Words are dropped, so the DMA never finishes the last burst: the software gives every frame up.
 BOOST_AUTO_TEST_CASE(a_frame_without_result_makes_no_rate) {

@@ -20,14 +20,10 @@ export const application = {
   guidance() {},
   /** Sections behind the guidance. */
   sections: () => [],
-  /** Columns of the table of units: {front, back}. `number`: makes one of numbers. */
+  /** Columns of the table of units: {front, back}. `number` makes one of numbers; `run` has the table of figures. */
   columns: () => ({ front: [], back: [] }),
   /** Bars beside the stages of a run: {rows, note}. */
   stages: () => ({ rows: [] }),
   /** A chart beside the power of the modules. */
   energy: () => null,
-  /** Rows of a comparison, made by pick(title, unit, of, better). */
-  figures: () => [],
-  /** Names of metrics: {path: [name, unit, which way is better, scale]}. */
-  metrics: {},
 };

@@ -46,9 +46,9 @@ function show() {
   }
   const trace = block("waves");
   if (trace) return frame(wavesPage(trace));
-  const folders = block("comparison");
-  if (folders) return frame(comparePage(result, block("extras"), block("result-b"), block("extras-b"), folders));
-  if (result) return frame(runPage(result, block("extras")));
+  const comparison = block("comparison");
+  if (comparison) return frame(comparePage(result, block("extras"), block("result-b"), block("extras-b"), comparison));
+  if (result) return frame(runPage(result, block("extras"), block("figures")));
   return frame({ title: "Nothing to show", subtitle: "This page was made without data.", sections: [] });
 }
 

@@ -14,9 +14,9 @@ const template = fs.readFileSync(process.env.MARKERVP_PAGE_TEMPLATE, "utf8");
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "markervp-page-"));
 const blocks = {
   run: samples.run(), short: samples.run({ frames: 1 }), sweep: samples.sweep(), smallSweep: samples.sweep({ points: 40 }), largeSweep: samples.sweep({ points: 20000 }), partOfSweep: { sweep: { ...samples.sweep({ points: 40 }).sweep, counts: { points: 1e6, feasible: 3e5, failed: 10 } } }, fastSweep: samples.sweep({ points: 1000, rate: 140 }), validation: samples.validation(), comparison: samples.comparison(), detectors: samples.detectors(), faults: samples.faults({ hostile: "<img src=x onerror='window.hacked=1'>" }),
-  hostileComparison: { ...samples.comparison(), comparison: ["a/<img src=x onerror='window.hacked=1'>", "b"] },
+  hostileComparison: { ...samples.comparison(), comparison: { folders: ["a/<img src=x onerror='window.hacked=1'>", "b"], figures: [] } },
   psOnly: samples.psOnly(), foreign: samples.foreign(), gaveUp: samples.gaveUp(), nothing: samples.gaveUp({ all: true }),
-  systems: { ...samples.comparison(), "result-b": samples.psOnly().result }, nothingCompared: { ...samples.comparison(), "result-b": samples.gaveUp({ all: true }).result },
+  systems: samples.comparedWith(samples.psOnly()), nothingCompared: samples.comparedWith(samples.gaveUp({ all: true })),
   hostile: samples.run({ frames: 2, name: '</script><img src=x onerror="window.hacked=1"><!--' }),
 };
 {

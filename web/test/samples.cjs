@@ -1,6 +1,21 @@
 // Data like those that the program writes, made here so that every section of the page has something to show.
 "use strict";
 
+/** Some of the table of figures, as the program puts it into pages. */
+const figures = [
+  ["summary.fps.mean", "Frame rate", "1/s", 1, { people_unit: "frames/s", factor: 1 }], ["summary.latency_us.mean", "Latency", "µs", -1, { people_unit: "ms", factor: 1e-3 }],
+  ["power.total_w.nominal", "Power", "W", -1], ["summary.energy_per_frame_mj", "Energy per frame", "mJ", -1], ["power.junction_c", "Junction", "°C", -1],
+  ["summary.detected", "Frames with a marker", "", 1], ["summary.frames", "Frames", "", 1], ["resources.total.lut", "LUT", "", -1], ["resources.total.ff", "Flip-flops", "", -1],
+  ["resources.total.bram36", "BRAM 36 Kb", "", -1], ["resources.total.dsp", "DSP", "", -1], ["frames.error.corner_px", "Corner error", "px", -1],
+  ["frames.error.translation_mm", "Translation error", "mm", -1], ["frames.error.rotation_deg", "Rotation error", "°", -1],
+].map(([path, title, unit, better, people = {}]) => ({ path, unit, better, title, meaning: "", ...people }));
+
+/** A metric of a sweep, as people see it. */
+function metric(path) {
+  const { title, unit, better, people_unit, factor = 1 } = figures.find((figure) => figure.path === path.replace(/^(frames\..*)\.mean$/, "$1"));
+  return { path, title, unit: people_unit ?? unit, factor, better };
+}
+
 /** Always the same numbers, 0 to 1. */
 function randomFrom(seed) {
   let state = seed;
@@ -81,7 +96,7 @@ function run({ frames = 200, name = "z1.0", seed = 1, clock = "50 MHz", fits = t
   };
   const view = { width: 640, height: 480, camera: { fx: 381.36, fy: 381.36, cx: 320, cy: 240 }, png,
     corners: Array.from({ length: 40 }, () => [Math.floor(640 * random()), Math.floor(480 * random()), Math.floor(4 * random())]), blobs: [[300, 200, 362, 262]], candidates: [[[300, 200], [360, 202], [358, 262], [298, 260]]] };
-  return { result, extras: { frames: Object.fromEntries(list.slice(0, 3).map((f) => [f.index, view])), timeline: timeline(list[0].time_us), profile: profile(),
+  return { result, figures, extras: { frames: Object.fromEntries(list.slice(0, 3).map((f) => [f.index, view])), timeline: timeline(list[0].time_us), profile: profile(),
     parameters: [["fidelity", "tlm", "decision", "how the logic is modelled"], ["pl.width", "640 px", "published", "width of a frame"], ["ps.fclk_clk1.frequency", "50 MHz", "published", "pixel clock"], ["ps.cpu_clk.frequency", "666.666667 MHz", "published", "clock of the cores"]] } };
 }
 
@@ -196,7 +211,7 @@ function sweep({ points = 5000, seed = 2, rate = 0 } = {}) {
     { path: "profile", count: 90, size: 55, low: 60, low_at: "thesis", high: 125, high_at: "a9-O2" }, { path: "pl.blob_detection.label_count", count: 45, size: 0, low: 97.5, low_at: "32", high: 97.5, high_at: "32" }] };
   return { sweep: { objectives, constraints: ["summary.detected >= 40", ...(rate ? [`summary.fps.mean >= ${rate}`] : [])], name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, idle: "", influence, missing: 3, points: list,
     counts: { points: list.length, feasible: list.filter((p) => p.reasons.length === 0).length, failed: list.filter((p) => p.failed).length },
-    metrics: paths.map((path) => ({ path, unit: "" })) } };
+    metrics: paths.map(metric) } };
 }
 
 /** The blocks of a validation's page. */
@@ -214,7 +229,21 @@ function validation() {
 function comparison() {
   const a = run({ frames: 40, seed: 5 });
   const b = run({ frames: 40, seed: 6, clock: "60 MHz", fits: false });
-  return { result: a.result, extras: a.extras, "result-b": b.result, "extras-b": b.extras, comparison: ["out/a", "out/b"] };
+  const { result, extras } = a;
+  return { result, extras, "result-b": b.result, "extras-b": b.extras, comparison: { folders: ["out/a", "out/b"], figures: rows(result, b.result) } };
+}
+
+/** The figures of two runs, as the program compares them. */
+function rows(a, b) {
+  const { title, unit, better } = metric("summary.fps.mean");
+  const capture = (result) => result.frames[0].time_us.capture ?? null;
+  return [{ title, unit, better, a: a.summary.fps?.mean ?? null, b: b.summary.fps?.mean ?? null }, { title: "Stage: capture", unit: "µs", better: -1, a: capture(a), b: capture(b) }];
+}
+
+/** A page that compares the first run of comparison() with another one. */
+function comparedWith({ result: other }) {
+  const blocks = comparison();
+  return { ...blocks, "result-b": other, comparison: { ...blocks.comparison, figures: rows(blocks.result, other) } };
 }
 
 /** `template` with blocks, as the program puts them in. */
@@ -258,4 +287,4 @@ function waves({ changes = 2000 } = {}) {
   };
 }
 
-module.exports = { waves, run, psOnly, foreign, gaveUp, sweep, validation, comparison, detectors, faults, page };
+module.exports = { waves, comparedWith, run, psOnly, foreign, gaveUp, sweep, validation, comparison, detectors, faults, page };

@@ -135,15 +135,19 @@ void FrameBench::place(const facts::SharedInput& right) {
 
 namespace {
 
-/// Throws vp::ProtocolError for a figure or a tally that the design did not declare as it must.
-void check_declared(const facts::UnitReport& unit, const facts::Work& work) {
+/// Throws vp::ProtocolError for a figure or a tally that the design did not declare, else gives
+/// figures their units.
+void check_declared(facts::UnitReport& unit, const facts::Work& work) {
   const auto refuse = [](const std::string& what) {
     throw vp::ProtocolError("the design reports " + what);
   };
   for (auto figure = unit.figures.begin(); figure != unit.figures.end(); ++figure) {
-    if (figure->name.empty()) refuse("a figure without a name");
-    if (figure->unit.empty())
-      refuse("figure '" + figure->name + "' without a unit: write \"1\" for a count or a ratio");
+    const auto declared =
+        std::find_if(work.figures.begin(), work.figures.end(),
+                     [&](const facts::Figure& known) { return known.path == figure->name; });
+    if (declared == work.figures.end())
+      refuse("figure '" + figure->name + "', which its work() does not declare");
+    figure->unit = declared->unit;
     const bool is_twice = std::any_of(unit.figures.begin(), figure, [&](const auto& before) {
       return before.name == figure->name;
     });

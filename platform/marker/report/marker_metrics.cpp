@@ -1,5 +1,6 @@
 #include <marker/report/marker_metrics.h>
 
+#include <marker/report/marker_frame.h>
 #include <result/metrics.h>
 
 #include <algorithm>
@@ -44,23 +45,31 @@ void rates(const Json& frame, const Found& found) {
     found("detection_rate", has_marker(frame, frame["scene_marker"]) ? 1 : 0);
 }
 
+std::vector<facts::Figure> marker_figures() {
+  using facts::Better;
+  std::vector<facts::Figure> figures = marker_work().declared();
+  const std::vector<facts::Figure> own{
+      {"summary.detection_rate", "1",
+       "share of the scenes whose marker was found, with its ID; 1: all", Better::more},
+      {"frames.markers", "1", "markers found"},
+      {"frames.threshold", "1", "grey level at which the image was made binary"},
+      {"frames.error.corner_px", "px", "distance of the marker's corners from the truth",
+       Better::less, "Corner error"},
+      {"frames.error.translation_mm", "mm", "distance of the marker's place from the truth",
+       Better::less, "Translation error"},
+      {"frames.error.rotation_deg", "°", "angle of the marker's rotation from the truth",
+       Better::less, "Rotation error"},
+      {"frames.reprojection_px", "px", "distance of the corners from those of the pose",
+       Better::less},
+      {"frames.iterations", "1", "iterations of the pose", Better::less}};
+  figures.insert(figures.end(), own.begin(), own.end());
+  return figures;
+}
+
 }  // namespace
 
 bool register_marker_metrics() {
-  static const result::UnitMetrics metrics(
-      take, rates,
-      {{"summary.detected", "", "of them with a marker"},
-       {"summary.detection_rate", "",
-        "share of the scenes whose marker was found, with its ID; 1: all"},
-       {"frames.markers", "", "markers found"},
-       {"frames.threshold", "", "grey level at which the image was made binary"},
-       {"frames.error.corner_px", "px", "distance of the marker's corners from the truth"},
-       {"frames.error.translation_mm", "mm", "distance of the marker's place from the truth"},
-       {"frames.error.rotation_deg", "°", "angle of the marker's rotation from the truth"},
-       {"frames.reprojection_px", "px", "distance of the corners from those of the pose"},
-       {"frames.iterations", "", "iterations of the pose"}},
-      {"summary.detected", "frames.error.corner_px.mean", "frames.error.translation_mm.mean",
-       "frames.error.rotation_deg.mean"});
+  static const result::UnitMetrics metrics(take, rates, marker_figures());
   return true;
 }
 

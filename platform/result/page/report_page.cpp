@@ -11,7 +11,8 @@
 
 #include <fmt/format.h>
 #include <host/document.h>
-#include <result/result_json.h>
+#include <result/figures.h>
+#include <result/page/comparison_rows.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>
@@ -257,6 +258,18 @@ std::string extras_of_page(const fs::path& folder) {
              : "";
 }
 
+/// The tree of a result; the figures that its design declared are known from then on.
+Json checked(const std::string& result, const fs::path& path) {
+  const std::string what = "result '" + path.string() + "'";
+  Json json = host::parse_json<Json>(result, what);
+  try {
+    result::declare(json.is_object() ? json.value("figures", Json::array()) : Json::array());
+  } catch (const Json::exception&) {
+    throw vp::InputError(what + " was changed or is damaged: run it again");
+  }
+  return json;
+}
+
 /// The blocks of a run; their names end in `suffix`. A file that others wrote is checked.
 void add_run(std::vector<Block>& blocks, const fs::path& folder, const std::string& suffix,
              std::string extras) {
@@ -268,7 +281,7 @@ void add_run(std::vector<Block>& blocks, const fs::path& folder, const std::stri
   }
   std::string result = result_of(path);
   if (extras.empty()) {
-    host::parse_json<Json>(result, "result '" + path.string() + "'");
+    checked(result, path);
     extras = extras_of_page(folder);
   }
   blocks.push_back({"result" + suffix, std::move(result)});
@@ -297,6 +310,7 @@ bool write_report(const std::string& folder, const std::string& extras) {
         {"detectors", host::read_json<Json>(root / detectors_name, "comparison").dump()});
   } else if (fs::exists(root / "result.json", ignored)) {
     add_run(blocks, root, "", extras);
+    blocks.push_back({"figures", result::figures_json().dump()});
   } else {
     throw vp::InputError("'" + folder +
                          "' has neither result.json (a run), manifest.json (a sweep), "
@@ -310,8 +324,13 @@ bool write_comparison(const std::string& first, const std::string& second,
   std::vector<Block> blocks;
   add_run(blocks, first, "", "");
   add_run(blocks, second, "-b", "");
-  Json names = Json::array({first, second});
-  blocks.push_back({"comparison", names.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  const auto result = [](const std::string& folder) {
+    const fs::path path = fs::path(folder) / "result.json";
+    return checked(vp::read_text(path, "result", host::largest_result), path);
+  };
+  const Json comparison{{"folders", {first, second}},
+                        {"figures", comparison_rows(result(first), result(second))}};
+  blocks.push_back({"comparison", comparison.dump(-1, ' ', false, replace)});
   return write_page(output, blocks);
 }
 

@@ -1,4 +1,4 @@
-#include <result/metrics.h>
+#include <result/figures.h>
 
 #include <boost/test/unit_test.hpp>
 
@@ -14,13 +14,12 @@ BOOST_AUTO_TEST_CASE(a_metric_has_unit_and_meaning) {
   BOOST_TEST(result::unit_of_metric("frames.time_us.pose.max") == "µs");
   BOOST_TEST(result::unit_of_metric("timing.met") == "");
   BOOST_TEST(result::unit_of_metric("power.total_w.nominal / summary.fps.mean") == "");
-  BOOST_TEST(result::kind_of_metric("frames.time_us.pose.mean")->meaning ==
-             std::string("time of a stage"));
+  BOOST_TEST(result::figures().of("frames.time_us.pose.mean")->meaning == "time of a stage");
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_metric_is_refused_with_the_nearest) {
   for (const char* wrong : {"summary.fps.men", "frames.markers", "power.modules..w", "clock"})
-    BOOST_TEST(result::kind_of_metric(wrong) == nullptr, wrong);
+    BOOST_TEST(result::figures().of(wrong) == nullptr, wrong);
   BOOST_TEST(input_error([] { result::check_metric("summary.fps.men", {}); }) ==
              "unknown metric 'summary.fps.men'; did you mean 'summary.fps.mean'?");
   BOOST_TEST(input_error([] { result::check_metric("pl.widht", {"pl.width"}); }) ==

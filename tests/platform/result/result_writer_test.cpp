@@ -1,3 +1,4 @@
+#include <marker/report/marker_metrics.h>
 #include <result/result_json.h>
 
 #include <boost/test/unit_test.hpp>
@@ -38,6 +39,9 @@ std::vector<std::string> keys(const Json& json) {
 using Keys = std::vector<std::string>;
 
 }  // namespace
+
+// What the application declares, designs need not.
+const bool is_registered = platform::register_marker_metrics();
 
 BOOST_AUTO_TEST_SUITE(result_writer)
 

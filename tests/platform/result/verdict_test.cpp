@@ -1,5 +1,5 @@
 #include <result/console.h>
-#include <result/result_json.h>
+#include <result/result_members.h>
 #include <result/verdict.h>
 
 #include <boost/test/unit_test.hpp>
@@ -291,14 +291,15 @@ BOOST_AUTO_TEST_CASE(the_worst_part_decides) {
 
 BOOST_AUTO_TEST_CASE(what_result_json_says) {
   Point point;
-  BOOST_TEST(to_json(point.verdict()) == Json::parse(R"({"feasible": "yes",
+  BOOST_TEST(verdict_members().json(point.verdict()) == Json::parse(R"({"feasible": "yes",
       "ran": {"holds": "yes"}, "job": {"holds": "yes", "margin_percent": 0.0},
       "fits": {"holds": "yes", "margin_percent": 50.0, "by": "lut"},
       "clocks": {"holds": "yes", "margin_percent": 0.05, "by": "ps.cpu_clk"},
       "timing": {"holds": "yes", "margin_percent": 10.0, "by": "a"}})"));
   point.facts.timing = {false, {module("b", 90, true)}};
-  BOOST_TEST(to_json(point.verdict())["feasible"] == "unknown");
-  BOOST_TEST(to_json(point.verdict())["timing"] == Json::parse(R"({"holds": "unknown",
+  BOOST_TEST(verdict_members().json(point.verdict())["feasible"] == "unknown");
+  BOOST_TEST(verdict_members().json(point.verdict())["timing"] ==
+             Json::parse(R"({"holds": "unknown",
       "margin_percent": -10.0, "by": "b", "why": "timing unknown for b"})"));
 }
 

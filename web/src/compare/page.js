@@ -1,29 +1,12 @@
 // Two runs beside each other.
-import { application } from "../application.js";
 import { axis, chart } from "../kit/chart.js";
 import { h } from "../kit/dom.js";
-import { heading, mean, significant, signed, tidy, time, words } from "../kit/format.js";
+import { significant, signed, tidy, time } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
 import { palette, seriesColour } from "../kit/theme.js";
-import { countsOf, figuresOf, makeRun } from "../run/facts.js";
+import { makeRun } from "../run/facts.js";
 import { gantt } from "../run/gantt.js";
 import { stageBars, stagesOf } from "../run/stages.js";
-
-function figures(a, b) {
-  const pick = (title, unit, of, better) => ({ title, unit, a: of(a) ?? NaN, b: of(b) ?? NaN, better });
-  const counts = (key) => (run) => run.frames.reduce((sum, f) => sum + (f.counts?.[key] ?? 0), 0) / run.frames.length;
-  const figure = (key) => (run) => mean(run.frames.map((f) => f.figures?.[key]).filter(Number.isFinite));
-  const stages = [...new Set([...a.stages, ...b.stages])];
-  return [
-    pick(`${heading(a.unit)} rate`, `${a.unit}s/s`, (r) => r.summary.fps?.mean, 1), pick("Latency", "ms", (r) => r.summary.latency_us?.mean / 1e3, -1),
-    pick("Power", "W", (r) => r.summary.power_w?.total, -1), pick(`Energy per ${a.unit}`, "mJ", (r) => r.summary.energy_per_frame_mj, -1), pick("Junction", "°C", (r) => r.result.power?.junction_c, -1),
-    pick(`${heading(a.unit)}s with result`, "", (r) => r.summary.delivered, 1), ...application.figures(pick),
-    ...figuresOf([...a.frames, ...b.frames]).map((name) => pick(words(name), "", figure(name), 0)),
-    ...stages.map((name) => pick(`Stage: ${words(name)}`, "µs", (r) => r.stageMean(name), -1)),
-    ...["lut", "ff", "bram36", "dsp"].map((kind) => pick(kind.toUpperCase(), "", (r) => r.result.resources?.total?.[kind], -1)),
-    ...countsOf([...a.frames, ...b.frames]).map((name) => pick(`${words(name)} a ${a.unit}`, "", counts(name), 0)),
-  ].filter((row) => Number.isFinite(row.a) || Number.isFinite(row.b));
-}
 
 function deltaTable(rows, names) {
   const share = (r) => (Number.isFinite(r.a) && Number.isFinite(r.b) && r.a !== 0 ? 100 * (r.b / r.a - 1) : undefined);
@@ -70,7 +53,7 @@ function overlaid(runs, names) {
   return gantt({ unit: runs[0].unit, extras: { timeline: all } });
 }
 
-export function comparePage(first, firstExtras, second, secondExtras, folders) {
+export function comparePage(first, firstExtras, second, secondExtras, { folders, figures }) {
   const runs = [makeRun(first, firstExtras), makeRun(second, secondExtras)];
   const short = folders.map((folder) => folder.replace(/\/$/, "").split("/").at(-1) || folder);
   const names = short[0] === short[1] ? folders : short;
@@ -83,7 +66,7 @@ export function comparePage(first, firstExtras, second, secondExtras, folders) {
     title: `${names[0]} and ${names[1]}`, subtitle: `Two runs compared  ·  A is ${folders[0]}, B is ${folders[1]}`,
     sections: [
       section("configuration", "What differs", changed.length ? dataTable({ caption: "Parameters that differ", name: "changed", rows: changed, columns: [{ title: "Parameter", head: true, value: (r) => r.path }, { title: labels[0], value: (r) => r.a }, { title: labels[1], value: (r) => r.b }] }) : h("p", { class: "note" }, "The configurations are equal.")),
-      section("figures", "Figures", deltaTable(figures(...runs), labels)),
+      section("figures", "Figures", deltaTable(figures.map((row) => ({ ...row, a: row.a ?? NaN, b: row.b ?? NaN })), labels)),
       section("time", "Time", stageChart(runs, labels), latencies(runs, labels), overlaid(runs, labels)),
     ],
   };

@@ -55,12 +55,12 @@ Object.assign(application, {
     if (without.length > 0) say("bad", `No marker in ${counted(without.length, "frame")}, first ${without[0].input}.`);
   },
   sections: (run) => [frameView(run)],
-  columns(number) {
+  columns(number, run) {
     const of = (key) => (frame) => markers(frame)[0]?.error?.[key];
     return {
       front: [{ title: "Marker", value: (f) => f.markers?.map((m) => m.id).join(", ") || (f.gave_up ? "no result" : f.markers && "none") }],
-      back: [["px", "corner_px", 2], ["mm", "translation_mm", 1], ["°", "rotation_deg", 2]]
-        .map(([unit, key, places]) => number("Error", unit, of(key), places, (v) => error(v, places))),
+      back: [["corner_px", 2], ["translation_mm", 1], ["rotation_deg", 2]]
+        .map(([key, places]) => number("Error", run.figure(`frames.error.${key}`).unit, of(key), places, (v) => error(v, places))),
     };
   },
   stages(run) {
@@ -68,11 +68,4 @@ Object.assign(application, {
     return { rows, note: rows.length === 0 ? undefined : stageNote };
   },
   energy: energyChart,
-  figures: (pick) => [pick("Frames with marker", "", (r) => r.summary.detected, 1), pick("Corner error", "px", (r) => r.error?.corner, -1),
-    pick("Translation error", "mm", (r) => r.error?.translation, -1), pick("Rotation error", "°", (r) => r.error?.rotation, -1)],
-  metrics: {
-    "summary.detected": ["Frames with marker", "", 1], "summary.detection_rate": ["Share of markers found", "", 1],
-    "frames.error.corner_px.mean": ["Corner error", "px", -1], "frames.error.translation_mm.mean": ["Translation error", "mm", -1],
-    "frames.error.rotation_deg.mean": ["Rotation error", "°", -1],
-  },
 });

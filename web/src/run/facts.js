@@ -1,8 +1,17 @@
 // A run as the sections of its page need it: result.json, and what is only in the page.
 import { application } from "../application.js";
-import { fixed, mean, quantile } from "../kit/format.js";
+import { fixed, heading, mean, quantile } from "../kit/format.js";
 
-export function makeRun(result, extras = {}) {
+/** Of the table of figures: {title, unit, factor} of a path, in words for this unit of work. */
+function figureIn(figures, path, unit) {
+  const pattern = (text) => new RegExp(`^${text.replace(/[.]/g, "\\.").replace("*", ".+")}$`);
+  const found = figures.find((figure) => figure.path === path) ?? figures.find((figure) => figure.path.includes("*") && pattern(figure.path).test(path));
+  const name = heading(path.split(".").at(-1));
+  const of = (text) => text.replaceAll("Frame", heading(unit)).replaceAll("frame", unit);
+  return { title: of(found?.title || name).replace("*", name), unit: of(found?.people_unit ?? found?.unit ?? ""), factor: found?.factor ?? 1 };
+}
+
+export function makeRun(result, extras = {}, figures = []) {
   const frames = result.frames ?? [];
   const delivered = frames.filter((frame) => !frame.gave_up);
   const whole = result.unit ?? "frame"; // the stage that a result's latency is
@@ -21,7 +30,9 @@ export function makeRun(result, extras = {}) {
   const run = {
     result, extras, frames, delivered, stages, configured, megahertz,
     /** What a unit of work is called. */
-    unit: result.unit ?? "frame",
+    unit: whole,
+    /** How people see a figure: {title, unit, factor}. */
+    figure: (path) => figureIn(figures, path, whole),
     summary: result.summary ?? {},
     latency: latencies.length ? {
       low: latencies[0], median: quantile(latencies, 0.5), p95: quantile(latencies, 0.95), high: latencies.at(-1),

@@ -24,8 +24,8 @@ function subtitle(run) {
   return [run.summary.frames !== undefined && counted(run.summary.frames, run.unit), system && `program ${system}`, design && `design ${design}`, fidelity === "clocked" ? "clock by clock" : "transaction level", profile && `cost profile ${profile}`].filter(Boolean).join("  ·  ");
 }
 
-export function runPage(result, extras) {
-  const run = makeRun(result, extras);
+export function runPage(result, extras, figures) {
+  const run = makeRun(result, extras, figures);
   run.overTime = () => overTime(run);
   return {
     title: title(run), subtitle: subtitle(run),

@@ -10,7 +10,7 @@ export function frameTable(run) {
   if (run.frames.length === 0) return null;
   const has = (pick) => run.frames.some((frame) => pick(frame) !== undefined);
   const number = (title, unit, value, places, show) => ({ title, unit, value, number: true, csv: unit ? `${title} ${unit}` : title, show: show ?? ((v) => fixed(v, places)) });
-  const own = application.columns(number);
+  const own = application.columns(number, run);
   const columns = [
     number("#", null, (f) => f.index + 1, 0),
     { title: "Input", value: (f) => f.input, head: true },
@@ -19,7 +19,10 @@ export function frameTable(run) {
     ...run.stages.map((name) => number(words(name), "µs", (f) => f.time_us?.[name], 1)),
     number("Energy", "mJ", (f) => f.energy_mj?.total ?? f.energy_mj, 3),
     ...countsOf(run.frames).map((name) => number(words(name), null, (f) => f.counts[name], 0)),
-    ...figuresOf(run.frames).map((name) => number(words(name), null, (f) => f.figures?.[name], 0, (v) => significant(v, 6))),
+    ...figuresOf(run.frames).map((name) => {
+      const { title, unit } = run.figure(`frames.figures.${name}`);
+      return number(title, unit, (f) => f.figures?.[name], 0, (v) => significant(v, 6));
+    }),
     ...own.back,
     { title: "Warnings", value: (f) => f.warnings?.join("; ") },
   ].filter((column) => has(column.value));

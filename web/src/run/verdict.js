@@ -1,7 +1,7 @@
 // The answer before the details: figures with origin, band, and the thesis' value beside them.
 import { application } from "../application.js";
 import { h } from "../kit/dom.js";
-import { counted, fixed, heading, significant, tidy } from "../kit/format.js";
+import { counted, fixed, significant, tidy } from "../kit/format.js";
 import { legend, origin } from "../kit/origin.js";
 
 /** Whether units came fast enough: those of a fixed rate, if there is one; else real time. Undefined: nothing says. */
@@ -25,9 +25,10 @@ function tiles(run) {
   const beside = application.beside(run);
   const { unit } = run;
   const list = [];
+  const named = (path) => ({ label: run.figure(path).title, unit: run.figure(path).unit });
   if (summary.fps) {
     list.push(tile({
-      label: `${heading(unit)} rate`, number: fixed(summary.fps.mean, summary.fps.mean < 1e4 ? 1 : 0), unit: `${unit}s/s`,
+      ...named("summary.fps.mean"), number: fixed(summary.fps.mean, summary.fps.mean < 1e4 ? 1 : 0),
       band: camera
         ? `busy ${fixed(camera.utilisation_percent, 1)} % of ${significant(1e3 / camera.rate_fps, 3)} ms, slack at least ${significant(camera.slack_us.min / 1e3, 3)} ms`
         : run.delivered.length > 1 ? `${fixed(summary.fps.min, 1)} to ${fixed(summary.fps.max, 1)}` : "one result",
@@ -36,7 +37,7 @@ function tiles(run) {
       tone: tone(keepsUp(run)),
     }));
     list.push(tile({
-      label: "Latency", number: significant(summary.latency_us.mean / 1e3, 4), unit: "ms",
+      ...named("summary.latency_us.mean"), number: significant(summary.latency_us.mean * run.figure("summary.latency_us.mean").factor, 4),
       band: run.latency && run.delivered.length > 1
         ? `${significant(run.latency.low / 1e3, 4)} to ${significant(run.latency.high / 1e3, 4)}, 95 % within ${significant(run.latency.p95 / 1e3, 4)}`
         : `from the ${unit}'s start to its result`,
@@ -48,7 +49,7 @@ function tiles(run) {
   if (power) {
     const band = result.power?.total_w;
     list.push(tile({
-      label: "Power", number: significant(power.total, 3), unit: "W",
+      ...named("power.total_w.nominal"), number: significant(power.total, 3),
       band: band ? `${significant(band.low, 3)} to ${significant(band.high, 3)}` : null,
       source: "derived", detail: "activity of this run times energy per event; the modules' sources stand in the table of power",
       thesis: beside.power,
@@ -58,13 +59,13 @@ function tiles(run) {
     const band = result.power?.total_w;
     const scale = band ? summary.energy_per_frame_mj / band.nominal : NaN;
     list.push(tile({
-      label: `Energy per ${unit}`, number: significant(summary.energy_per_frame_mj, 3), unit: "mJ",
+      ...named("summary.energy_per_frame_mj"), number: significant(summary.energy_per_frame_mj, 3),
       band: band ? `${significant(band.low * scale, 3)} to ${significant(band.high * scale, 3)}` : null, source: "derived",
     }));
   }
   if (Number.isFinite(result.power?.junction_c)) {
     list.push(tile({
-      label: "Junction", number: fixed(result.power.junction_c, 1), unit: "°C",
+      ...named("power.junction_c"), number: fixed(result.power.junction_c, 1),
       band: Number.isFinite(result.power.ambient_c) ? `at ${fixed(result.power.ambient_c, 0)} °C around it` : null,
       source: "derived", tone: result.power.junction_c > 85 ? "bad" : null,
     }));

@@ -1,14 +1,4 @@
 // The points of a sweep as numbers: "50 MHz" is 50 on an axis in MHz.
-import { application } from "../application.js";
-
-/** Name, unit and which way is better, where the path says less. */
-const names = {
-  "summary.fps.mean": ["Frame rate", "frames/s", 1], "summary.latency_us.mean": ["Latency", "ms", -1, 1e-3], "power.total_w.nominal": ["Power", "W", -1],
-  "summary.energy_per_frame_mj": ["Energy per frame", "mJ", -1], "power.junction_c": ["Junction", "°C", -1], "summary.frames": ["Frames", "", 1],
-  "resources.total.lut": ["LUT", "", -1], "resources.total.ff": ["Flip-flops", "", -1], "resources.total.bram36": ["BRAM 36 Kb", "", -1],
-  "resources.total.dsp": ["DSP", "", -1],
-};
-
 const scales = { Hz: ["MHz", 1e-6], kHz: ["MHz", 1e-3], MHz: ["MHz", 1], GHz: ["MHz", 1e3] };
 
 /** {number, unit} of a value of the configuration; number NaN for words. */
@@ -34,16 +24,9 @@ function parameterAxis(sweep, index) {
   }, numeric ? values.map((v) => v.number) : texts.map((text) => places.get(text)));
 }
 
-/** {name, unit, better, scale} of a metric. */
-export function metricName({ path, unit: given }) {
-  const [name, unit, better, scale = 1] = names[path] ?? application.metrics[path] ?? [path, given, 0];
-  return { name, unit, better, scale };
-}
-
 function metricAxis(sweep, index) {
-  const { path } = sweep.metrics[index];
-  const { name, unit, better, scale } = metricName(sweep.metrics[index]);
-  return axisOf({ id: path, name, unit, better, scale, numeric: true }, sweep.points.map(({ metrics }) => (metrics[index] ?? NaN) * scale));
+  const { path, title, unit, better, factor } = sweep.metrics[index];
+  return axisOf({ id: path, name: title, unit, better, scale: factor, numeric: true }, sweep.points.map(({ metrics }) => (metrics[index] ?? NaN) * factor));
 }
 
 /** The axis of an objective: the page has a figure for each, or it is a parameter. */

@@ -4,7 +4,7 @@ import { counted, fixed, significant } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
 import { shellWord } from "../run/tables.js";
 import { columnsOf, heatMap, parallel, tornado } from "./charts.js";
-import { makeSweep, metricName } from "./facts.js";
+import { makeSweep } from "./facts.js";
 import { makeSelection } from "./selection.js";
 import { tradeOff } from "./trade_off.js";
 import { comparison, whatIf } from "./what_if.js";
@@ -57,15 +57,14 @@ function verdict(sweep) {
 
 /** What one step of each parameter changes at a point. */
 function stepTable({ key, figures, rows }) {
-  const named = figures.map((figure) => ({ ...figure, ...metricName(figure) }));
-  const change = ({ name, unit, scale }, index) => ({
-    title: name, unit, number: true,
-    value: (row) => (row.changes[index] === null ? null : row.changes[index] * scale),
+  const change = ({ title, unit, factor }, index) => ({
+    title, unit, number: true,
+    value: (row) => (row.changes[index] === null ? null : row.changes[index] * factor),
     show: (value) => (value > 0 ? "+" : "") + significant(value, 4),
   });
   const columns = [{ title: "Parameter", value: (row) => row.path }, { title: "From", value: (row) => row.from }, { title: "To", value: (row) => row.to },
-    ...named.map(change), { title: "Not feasible", value: (row) => row.trouble }];
-  const base = named.filter((figure) => figure.base !== null).map((figure) => `${figure.name} ${significant(figure.base * figure.scale, 5)} ${figure.unit}`.trim());
+    ...figures.map(change), { title: "Not feasible", value: (row) => row.trouble }];
+  const base = figures.filter((figure) => figure.base !== null).map((figure) => `${figure.title} ${significant(figure.base * figure.factor, 5)} ${figure.unit}`.trim());
   return h("div", {}, h("p", { class: "note" }, `Point ${key.slice(0, 12)}: ${base.join(", ")}. One step down or up of each parameter changes this by:`),
     dataTable({ columns, rows, caption: "Steps, the strongest first", name: "steps", exportable: true, limit: 40 }));
 }

@@ -201,7 +201,7 @@ BOOST_FIXTURE_TEST_CASE(readmemh_reads_them, Verilog) {
 struct Vhdl : Vectors {
   Vhdl() {
     write("global_threshold");
-    fs::copy(MARKERVP_SOURCE "/platform/template/rtl/global_threshold.vhd", folder.path());
+    fs::copy(MARKERVP_SOURCE "/examples/07_own_rtl/global_threshold.vhd", folder.path());
   }
   kit::Outcome simulate(const std::string& file = "global_threshold.vhd") const {
     for (const Strings& step :

@@ -59,9 +59,7 @@ FirDesign::FirDesign(sc_core::sc_module_name name, platform::PlPorts& ports, boo
       axi_dma_0_("axi_dma_0", ports.fclk_clk(0), one_channel(true)),
       axi_dma_1_("axi_dma_1", ports.fclk_clk(0), one_channel(false)),
       filter_("filter", ports.fclk_clk(0)),
-      concat_("concat", 2),
-      mistake_("mistake", "none", {"none", "no_job", "no_unit", "figure_twice", "unknown_tally"},
-               vp::Source::decision, "what the design does wrong, for a test") {
+      concat_("concat", 2) {
   ports.m_axi_gp0(registers_);
   ports.s_axi_hp0(memory_);
   ports.irq_f2p(concat_.dout);
@@ -82,9 +80,9 @@ FirDesign::FirDesign(sc_core::sc_module_name name, platform::PlPorts& ports, boo
 Work FirDesign::work() const {
   Work work;
   work.unit = "block";
-  if (mistake_.get() != "no_job")
-    work.job = "every word of a block is filtered as the program expects";
+  work.job = "every word of a block is filtered as the program expects";
   work.tallies = {{"loud", "above 1000", "none above 1000"}};
+  work.figures = {{"peak", "V", "largest word of a block", platform::facts::Better::less}};
   return work;
 }
 
@@ -106,10 +104,7 @@ bool FirDesign::report(const platform::Publication& publication, UnitReport& blo
                  {"block", ps, block.start_ps}};
   block.counts.set("words", result.words);
   block.counts.lose("lost_words", fir::block_words - result.words);
-  block.figures = {{"peak", "V", static_cast<double>(result.peak)}};
-  if (mistake_.get() == "figure_twice") block.figures.push_back(block.figures.front());
-  if (mistake_.get() == "no_unit") block.figures.front().unit.clear();
-  if (mistake_.get() == "unknown_tally") block.tallies.emplace_back("silent");
+  block.figures = {{"peak", static_cast<double>(result.peak)}};
   if (result.peak > 1000) block.tallies.emplace_back("loud");
   if (result.wrong > 0) block.failures.emplace_back("with wrong words");
   return true;
@@ -126,17 +121,4 @@ const platform::DesignInfo& fir_design() {
         return std::make_unique<FirDesign>(name, ports, true);
       }};
   return fir;
-}
-
-const platform::DesignInfo& ramp_design() {
-  static const platform::DesignInfo ramp{
-      "ramp",
-      "the same filter on a ramp that its program makes",
-      {"filtering"},
-      true,
-      platform::no_words,
-      [](const char* name, platform::PlPorts& ports) -> std::unique_ptr<platform::Design> {
-        return std::make_unique<FirDesign>(name, ports, false);
-      }};
-  return ramp;
 }

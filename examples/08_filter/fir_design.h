@@ -50,11 +50,8 @@ class FirDesign : public sc_core::sc_module, public platform::Design {
   xilinx::AxiDma axi_dma_0_, axi_dma_1_;
   FirFilter filter_;
   xilinx::Concat concat_;
-  vp::Parameter<std::string> mistake_;
   vp::AxiStream samples_{"samples"}, filtered_{"filtered"};
 };
 
 /// "fir": blocks from a file of samples.
 const platform::DesignInfo& fir_design();
-/// "ramp": its program makes three blocks.
-const platform::DesignInfo& ramp_design();
