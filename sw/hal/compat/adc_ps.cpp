@@ -137,8 +137,10 @@ u8 XAdcPs_GetAvg(XAdcPs* InstancePtr) {
 int XAdcPs_SetSingleChParams(XAdcPs* InstancePtr, u8 Channel, int IncreaseAcqCycles,
                              int IsEventMode, int IsDifferentialMode) {
   if (XAdcPs_GetSequencerMode(InstancePtr) != XADCPS_SEQ_MODE_SINGCHAN) return XST_FAILURE;
+  Xil_AssertNonvoid(Channel <= XADCPS_CH_VBRAM || Channel == XADCPS_CH_ADC_CALIB ||
+                    (Channel >= XADCPS_CH_VCCPINT && Channel <= XADCPS_CH_AUX_MAX));
   const bool outer = Channel == XADCPS_CH_VPVN || Channel >= XADCPS_CH_AUX_MIN;
-  if (IncreaseAcqCycles && !outer) return XST_FAILURE;
+  if ((IncreaseAcqCycles || IsDifferentialMode) && !outer) return XST_FAILURE;
   u32 word = Channel & XADCPS_CFR0_CHANNEL_MASK;
   if (IncreaseAcqCycles) word |= XADCPS_CFR0_ACQ_MASK;
   if (IsEventMode) word |= XADCPS_CFR0_EC_MASK;

@@ -98,9 +98,18 @@ void start_receive(XIicPs* i2c, u8* bytes, s32 count, u16 address) {
   write(i2c, XIICPS_ADDR_OFFSET, address);
 }
 
-s32 failed(XIicPs* i2c) {
+s32 failed(XIicPs* i2c, u32 events) {
   XIicPs_Abort(i2c);
-  return XST_FAILURE;
+  return events & XIICPS_IXR_ARB_LOST_MASK ? XST_IIC_ARB_LOST : XST_FAILURE;
+}
+
+/// What the handler of a program is told of failures: all of it at once.
+u32 events_of(u32 failed) {
+  u32 told = 0;
+  if (failed & XIICPS_IXR_ARB_LOST_MASK) told |= XIICPS_EVENT_ARB_LOST;
+  if (failed & XIICPS_IXR_NACK_MASK) told |= XIICPS_EVENT_NACK;
+  if (failed & ~static_cast<u32>(XIICPS_IXR_ARB_LOST_MASK)) told |= XIICPS_EVENT_ERROR;
+  return told;
 }
 
 void tell(XIicPs* i2c, u32 event) {
@@ -195,20 +204,24 @@ s32 XIicPs_SetSClk(XIicPs* InstancePtr, u32 FsclHz) {
   Xil_AssertNonvoid(FsclHz > 0);
   if (read(InstancePtr, XIICPS_TRANS_SIZE_OFFSET) != 0) return XST_DEVICE_IS_STARTED;
   const u32 clock = InstancePtr->Config.InputClockHz / ps_i2c::scl_divisor;
-  if (FsclHz > clock) return XST_FAILURE;
+  const u32 ratio = clock / FsclHz;
+  if (ratio == 0) return XST_FAILURE;
   u32 wanted = FsclHz > 384600 ? 384600 : FsclHz;
   if (wanted > 90000 && wanted <= 100000) wanted = 90000;
-  u32 best = 0, best_a = 0, best_b = 0;
-  for (u32 a = 0; a < XIICPS_DIV_A_MAX; ++a) {
+  const bool is_whole = InstancePtr->Config.InputClockHz % (ps_i2c::scl_divisor * wanted) == 0;
+  u32 best_error = wanted, best_a = 0, best_b = 0;
+  for (u32 product = ratio; product <= ratio + (is_whole ? 0 : 1); ++product) {
     for (u32 b = 0; b <= XIICPS_CR_DIV_B_MASK >> XIICPS_CR_DIV_B_SHIFT; ++b) {
+      const u32 a = product > b ? product / (b + 1) - 1 : 0;
+      if (a >= XIICPS_DIV_A_MAX) continue;
       const u32 given = clock / ((a + 1) * (b + 1));
-      if (given > wanted || given <= best) continue;
-      best = given;
+      const u32 error = given > wanted ? given - wanted : wanted - given;
+      if (error >= best_error) continue;
+      best_error = error;
       best_a = a;
       best_b = b;
     }
   }
-  if (best == 0) return XST_FAILURE;
   change_control(InstancePtr, XIICPS_CR_DIV_A_MASK | XIICPS_CR_DIV_B_MASK,
                  best_a << XIICPS_CR_DIV_A_SHIFT | best_b << XIICPS_CR_DIV_B_SHIFT);
   return XST_SUCCESS;
@@ -226,7 +239,7 @@ s32 XIicPs_MasterSendPolled(XIicPs* InstancePtr, u8* MsgPtr, s32 ByteCount, u16 
   start_send(InstancePtr, MsgPtr, ByteCount, SlaveAddr);
   for (u32 events = 0; !sent(InstancePtr, events);) {
     events = read(InstancePtr, XIICPS_ISR_OFFSET);
-    if (events & failures) return failed(InstancePtr);
+    if (events & failures) return failed(InstancePtr, events);
     if (InstancePtr->SendByteCount > 0) fill(InstancePtr);
   }
   let_go(InstancePtr);
@@ -237,7 +250,8 @@ s32 XIicPs_MasterRecvPolled(XIicPs* InstancePtr, u8* MsgPtr, s32 ByteCount, u16 
   Xil_AssertNonvoid(InstancePtr->IsReady == XIL_COMPONENT_IS_READY && MsgPtr);
   start_receive(InstancePtr, MsgPtr, ByteCount, SlaveAddr);
   while (InstancePtr->RecvByteCount > 0) {
-    if (read(InstancePtr, XIICPS_ISR_OFFSET) & failures) return failed(InstancePtr);
+    const u32 events = read(InstancePtr, XIICPS_ISR_OFFSET);
+    if (events & failures) return failed(InstancePtr, events);
     drain(InstancePtr);
   }
   let_go(InstancePtr);
@@ -262,9 +276,7 @@ void XIicPs_MasterInterruptHandler(XIicPs* InstancePtr) {
   if (events & XIICPS_IXR_SLV_RDY_MASK) tell(InstancePtr, XIICPS_EVENT_SLAVE_RDY);
   if (events & failures) {
     XIicPs_Abort(InstancePtr);
-    u32 event = events & XIICPS_IXR_NACK_MASK ? XIICPS_EVENT_NACK : XIICPS_EVENT_ERROR;
-    if (events & XIICPS_IXR_ARB_LOST_MASK) event = XIICPS_EVENT_ARB_LOST;
-    return tell(InstancePtr, event);
+    return tell(InstancePtr, events_of(events & failures));
   }
   if ((events & (XIICPS_IXR_COMP_MASK | XIICPS_IXR_DATA_MASK)) == 0) return;
   if (InstancePtr->IsSend) {

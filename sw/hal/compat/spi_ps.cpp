@@ -164,15 +164,17 @@ s32 XSpiPs_Transfer(XSpiPs* InstancePtr, u8* SendBufPtr, u8* RecvBufPtr, u32 Byt
 void XSpiPs_InterruptHandler(XSpiPs* InstancePtr) {
   const u32 events = read(InstancePtr, XSPIPS_SR_OFFSET);
   write(InstancePtr, XSPIPS_SR_OFFSET, events & XSPIPS_IXR_WR_TO_CLR_MASK);
+  // As the vendor counts them: those that went into the FIFO and did not come back.
+  const u32 under_way = InstancePtr->RemainingBytes - InstancePtr->RequestedBytes;
   if ((events & XSPIPS_IXR_MODF_MASK) != 0) {
-    const u32 done = InstancePtr->RemainingBytes;
     XSpiPs_Abort(InstancePtr);
-    return tell(InstancePtr, XST_SPI_MODE_FAULT, done);
+    return tell(InstancePtr, XST_SPI_MODE_FAULT, under_way);
   }
+  if ((events & (XSPIPS_IXR_RXOVR_MASK | XSPIPS_IXR_TXUF_MASK)) != 0) finish(InstancePtr);
   if ((events & XSPIPS_IXR_RXOVR_MASK) != 0)
-    tell(InstancePtr, XST_SPI_RECEIVE_OVERRUN, InstancePtr->RemainingBytes);
+    tell(InstancePtr, XST_SPI_RECEIVE_OVERRUN, under_way);
   if ((events & XSPIPS_IXR_TXUF_MASK) != 0)
-    tell(InstancePtr, XST_SPI_TRANSMIT_UNDERRUN, InstancePtr->RemainingBytes);
+    tell(InstancePtr, XST_SPI_TRANSMIT_UNDERRUN, under_way);
   if (!InstancePtr->IsBusy) return;
   take_back(InstancePtr);
   if (InstancePtr->RequestedBytes > 0) return fill(InstancePtr);

@@ -71,12 +71,14 @@ s32 XIicPs_SelfTest(XIicPs* InstancePtr);
 s32 XIicPs_SetOptions(XIicPs* InstancePtr, u32 Options);
 s32 XIicPs_ClearOptions(XIicPs* InstancePtr, u32 Options);
 u32 XIicPs_GetOptions(XIicPs* InstancePtr);
-/** The fastest clock that is not above FsclHz: 384.6 kHz at most, and 90 kHz for 90 to 100 kHz, as
- * the vendor's driver has it for the controller's sake. XST_FAILURE if there is none. */
+/** The clock nearest to FsclHz, which may be above it. The controller is not asked for more than
+ * 384.6 kHz, nor for 90 to 100 kHz: that becomes 90 kHz. XST_FAILURE if FsclHz is more than the input
+ * clock / 22, XST_DEVICE_IS_STARTED during a transfer. */
 s32 XIicPs_SetSClk(XIicPs* InstancePtr, u32 FsclHz);
 u32 XIicPs_GetSClk(XIicPs* InstancePtr);
 
-/** Return when the transfer is over: XST_FAILURE if nothing acknowledged. */
+/** Return when the transfer is over: XST_FAILURE if nothing acknowledged, XST_IIC_ARB_LOST if
+ * another master has the bus. */
 s32 XIicPs_MasterSendPolled(XIicPs* InstancePtr, u8* MsgPtr, s32 ByteCount, u16 SlaveAddr);
 s32 XIicPs_MasterRecvPolled(XIicPs* InstancePtr, u8* MsgPtr, s32 ByteCount, u16 SlaveAddr);
 
