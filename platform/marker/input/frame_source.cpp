@@ -223,8 +223,11 @@ SharedFrame share(InputFrame frame) {
   return std::make_shared<const InputFrame>(std::move(frame));
 }
 
-SharedFrame render_scene(const InputItem& item, const Camera& camera) {
+/// Of levels that are not light a program knows what the camera file says, or nothing.
+SharedFrame render_scene(const InputItem& item, const InputOptions& options) {
+  Camera camera = scene_camera(options);
   const Scene scene = make_scene(item.source, camera);
+  if (!scene.response.empty()) camera.response = camera_of(options, options.size).response;
   std::vector<GroundTruth> truths = ground_truths(scene);
   const GroundTruth own = truths.front();
   truths.erase(truths.begin());
@@ -247,7 +250,7 @@ void keep_scenes(const std::vector<std::string>& inputs, const InputOptions& opt
     const Camera camera = scene_camera(options);
     if (kept_scene(item.source, camera)) continue;
     if (kept_bytes() >= most_bytes) return;
-    kept().push_back(render_scene(item, camera));
+    kept().push_back(render_scene(item, options));
   }
 }
 
@@ -374,9 +377,8 @@ class ListedFrames : public FrameSource {
   }
 
   SharedFrame scene_frame(const InputItem& item) {
-    const Camera camera = scene_camera(options_);
-    if (SharedFrame kept = kept_scene(item.source, camera)) return kept;
-    return render_scene(item, camera);
+    if (SharedFrame kept = kept_scene(item.source, scene_camera(options_))) return kept;
+    return render_scene(item, options_);
   }
 
   SharedFrame video_frame(const InputItem& item) {
