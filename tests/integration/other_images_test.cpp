@@ -307,4 +307,24 @@ BOOST_AUTO_TEST_CASE(scenes_do_not_settle_unless_behind_an_image) {
   BOOST_TEST(frames[1]["settling_showings"] == 2);
 }
 
+// As a camera's program sends them.
+BOOST_AUTO_TEST_CASE(the_standard_input_is_an_image_or_a_video) {
+  const Workplace place;
+  write_picture(place / "a.pgm", scene_picture("z1.0"));
+  const auto sent = [&](const std::string& command) {
+    return kit::run_process("/bin/sh", {"-c", command + " | " MARKERVP_EXECUTABLE " run --quiet -"},
+                            place.path());
+  };
+  const kit::Outcome two = sent("cat a.pgm a.pgm");
+  BOOST_TEST(two.exit_code == 0, two.err);
+  const Json frames = place.result()["frames"];
+  BOOST_TEST(inputs_of(frames) == (Names{"-#0", "-#1"}));
+  check_marker(frames[1], 0);
+  BOOST_TEST(sent("cat a.pgm").exit_code == 0);
+  BOOST_TEST(inputs_of(place.result()["frames"]) == Names{"-"});
+  const kit::Outcome nothing = sent("true");
+  BOOST_TEST(nothing.exit_code == 2);
+  BOOST_TEST(contains(nothing.err, "input '-' is empty"), nothing.err);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -23,6 +23,7 @@ struct PosesOptions {
   std::string result = "out";
   std::string convention = "top-left";
   std::string format = "csv";
+  std::vector<std::string> sides;
   poses::TextOptions text;
   std::optional<std::string> output;
 };
@@ -50,6 +51,8 @@ const Named& find(const std::vector<Named>& list, const std::string& name) {
 
 int print_poses(PosesOptions options, std::ostream& out, std::ostream& err) {
   options.text.convention = &find(poses::conventions(), options.convention);
+  for (const std::string& side : options.sides)
+    options.text.sides.push_back(poses::side_rule(side));
   const std::vector<poses::PoseFrame> frames = poses::read_poses(options.result);
   std::vector<std::string> warnings;
   const std::string text =
@@ -86,6 +89,10 @@ cli::Command add_poses(CLI::App& parser) {
   choice("--format", target.format, "what is written", names_of(poses::formats()));
   command->add_option("--id", target.text.name, "only this marker; board: only the board")
       ->type_name("ID|board");
+  command->add_option("--side", target.sides, "side of a marker, or of all; may be repeated")
+      ->type_name("[ID[-ID]=]LENGTH")
+      ->expected(1)
+      ->take_all();
   command->add_option("--camera-frame", target.text.camera_frame, "frame_id of ROS' messages")
       ->type_name("NAME");
   command->add_option("-o,--output", target.output, "write a file instead of printing")

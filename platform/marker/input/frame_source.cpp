@@ -2,7 +2,10 @@
 
 #include <marker/input/frame_source.h>
 #include <marker/input/image_file.h>
+#include <marker/input/image_sequence.h>
 #include <marker/input/media.h>
+#include <marker/input/pgm_stream.h>
+#include <marker/input/standard_input.h>
 #include <marker/scene/pose.h>
 #include <marker/scene/renderer.h>
 #include <marker/scene/scene.h>
@@ -77,11 +80,14 @@ class Lister {
       for (const std::string& scene : group->scenes) add_scene(scene);
       return;
     }
+    if (input == standard_input_name) return add_file(standard_input_file());
     std::error_code error;
     const fs::file_status status = fs::status(input, error);
-    if (status.type() == fs::file_type::not_found) refuse_unknown(input);
+    const bool is_missing = status.type() == fs::file_type::not_found;
+    if (is_missing && is_sequence(input)) return add_sequence(input);
+    if (is_missing) refuse_unknown(input);
     if (fs::is_directory(status)) return add_folder(input);
-    if (!add_image(input)) add_video(input);
+    add_file(input);
   }
 
   std::vector<InputItem> take() { return std::move(items_); }
@@ -92,12 +98,26 @@ class Lister {
     items_.push_back({InputItem::Kind::scene, name, name});
   }
 
+  void add_file(const std::string& path) {
+    if (!add_image(path)) add_video(path);
+  }
+
   bool add_image(const std::string& path) {
+    if (is_pgm_stream(path)) return false;
     const std::optional<ImageSize> found = inspect_image(path);
     if (!found) return false;
     check(path, *found);
     items_.push_back({InputItem::Kind::image, path, file_name(path)});
     return true;
+  }
+
+  void add_sequence(const std::string& path) {
+    const ImageSequence sequence = find_sequence(path);
+    const std::size_t first = items_.size();
+    add_images(sequence.files);
+    for (std::size_t i = first; i < items_.size(); ++i) items_[i].in_sequence = true;
+    if (!sequence.gap.empty())
+      items_[first].oddity = "'" + sequence.gap + "' is missing in '" + path + "'";
   }
 
   void add_video(const std::string& path) {
@@ -118,6 +138,10 @@ class Lister {
     if (error) throw vp::InputError("folder '" + path + "' cannot be read: " + error.message());
     if (images.empty()) throw vp::InputError("folder '" + path + "' has no images");
     std::sort(images.begin(), images.end(), natural_less);
+    add_images(images);
+  }
+
+  void add_images(const std::vector<std::string>& images) {
     for (const std::string& image : images) {
       if (!add_image(image)) throw vp::InputError("image '" + image + "' is damaged or no image");
     }
@@ -199,8 +223,11 @@ SharedFrame share(InputFrame frame) {
   return std::make_shared<const InputFrame>(std::move(frame));
 }
 
-SharedFrame render_scene(const InputItem& item, const Camera& camera) {
+/// Of levels that are not light a program knows what the camera file says, or nothing.
+SharedFrame render_scene(const InputItem& item, const InputOptions& options) {
+  Camera camera = scene_camera(options);
   const Scene scene = make_scene(item.source, camera);
+  if (!scene.response.empty()) camera.response = camera_of(options, options.size).response;
   std::vector<GroundTruth> truths = ground_truths(scene);
   const GroundTruth own = truths.front();
   truths.erase(truths.begin());
@@ -223,7 +250,7 @@ void keep_scenes(const std::vector<std::string>& inputs, const InputOptions& opt
     const Camera camera = scene_camera(options);
     if (kept_scene(item.source, camera)) continue;
     if (kept_bytes() >= most_bytes) return;
-    kept().push_back(render_scene(item, camera));
+    kept().push_back(render_scene(item, options));
   }
 }
 
@@ -245,6 +272,7 @@ class ListedFrames : public FrameSource {
       : items_(std::move(items)), options_(options) {
     const bool repeats = options_.repeat > 1 && items_.size() <= kept_frames;
     if (repeats) kept_.resize(items_.size());
+    for (const InputItem& item : items_) warn(item.oddity);
     warn_of_camera();
   }
 
@@ -349,9 +377,8 @@ class ListedFrames : public FrameSource {
   }
 
   SharedFrame scene_frame(const InputItem& item) {
-    const Camera camera = scene_camera(options_);
-    if (SharedFrame kept = kept_scene(item.source, camera)) return kept;
-    return render_scene(item, camera);
+    if (SharedFrame kept = kept_scene(item.source, scene_camera(options_))) return kept;
+    return render_scene(item, options_);
   }
 
   SharedFrame video_frame(const InputItem& item) {
@@ -395,7 +422,7 @@ class ListedFrames : public FrameSource {
                   fit_camera(camera, options_.size, options_.fit),
                   std::nullopt,
                   {},
-                  item.kind});
+                  item.in_sequence ? InputItem::Kind::video : item.kind});
   }
 
   std::vector<InputItem> items_;

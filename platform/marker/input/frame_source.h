@@ -38,8 +38,10 @@ struct InputItem {
   enum class Kind { scene, image, video };
 
   Kind kind;
-  std::string source;  ///< scene name or path
-  std::string name;    ///< without folders
+  std::string source;        ///< scene name or path
+  std::string name;          ///< without folders
+  bool in_sequence = false;  ///< an image that is a picture of a video
+  std::string oddity = {};   ///< a warning; empty: none
 };
 
 /// The inputs with groups and folders resolved, each looked at (see open_inputs).
@@ -99,9 +101,9 @@ class FrameSource {
 };
 
 /// Each input is the name of a scene or of a group of scenes, an image file, a folder (its image
-/// files in natural order: 9.png before 10.png; no subfolders) or a video. No input at all is the
-/// demo scene. Scene names come first: write
-/// ./demo for a file of that name.
+/// files in natural order: 9.png before 10.png; no subfolders), a video, the images of a video
+/// ("%04d.png"), or "-", the standard input. No input at all is the demo scene. Scene names come
+/// first: write ./demo for a file of that name.
 ///
 /// All inputs are looked at before the first frame is made, so that a wrong one costs no time.
 /// Throws vp::InputError for one that is unknown, missing, unreadable, empty, truncated,

@@ -39,6 +39,15 @@ std::string kind_name(fs::file_type type) {
   }
 }
 
+/// A camera's pictures come through a program that knows how to set it up.
+std::string advice(const fs::path& path, fs::file_type type) {
+  const bool is_camera =
+      type == fs::file_type::character && path.filename().string().rfind("video", 0) == 0;
+  return is_camera ? "; of a camera send pictures: ffmpeg -f v4l2 -i " + path.string() +
+                         " -frames:v 100 -f yuv4mpegpipe - | markervp run -"
+                   : "";
+}
+
 }  // namespace
 
 void require_regular_file(const std::string& path) {
@@ -49,7 +58,7 @@ void require_regular_file(const std::string& path) {
   if (error) throw vp::InputError("'" + path + "' cannot be read: " + error.message());
   if (type != fs::file_type::regular) {
     throw vp::InputError("'" + path + "' cannot be read: it is " + kind_name(type) +
-                         ", and must be a file");
+                         ", and must be a file" + advice(path, type));
   }
 }
 
@@ -225,7 +234,8 @@ std::optional<std::size_t> header_number(const Bytes& bytes, std::size_t& at) {
   return value;
 }
 
-ImageHeader check_pgm(const Bytes& bytes, const std::string& path) {
+/// What it says; its pixels may be cut.
+ImageHeader pgm_header(const Bytes& bytes, const std::string& path) {
   std::size_t at = 2;
   const auto width = header_number(bytes, at);
   const auto height = header_number(bytes, at);
@@ -239,9 +249,13 @@ ImageHeader check_pgm(const Bytes& bytes, const std::string& path) {
   header.height = static_cast<int>(*height);
   header.pixel_offset = at + 1;
   header.plain_grey = *maximum == 255;
-  const std::size_t bytes_per_pixel = *maximum > 255 ? 2 : 1;
-  if (bytes.size() - header.pixel_offset < *width * *height * bytes_per_pixel)
-    refuse_truncated(path);
+  header.bytes = header.pixel_offset + *width * *height * (*maximum > 255 ? 2 : 1);
+  return header;
+}
+
+ImageHeader check_pgm(const Bytes& bytes, const std::string& path) {
+  const ImageHeader header = pgm_header(bytes, path);
+  if (bytes.size() < header.bytes) refuse_truncated(path);
   return header;
 }
 
@@ -382,31 +396,51 @@ GreyImage plain_pgm(const std::vector<std::uint8_t>& bytes, const ImageHeader& h
 }
 
 Decoded<GreyImage> decode(const std::vector<std::uint8_t>& bytes, const ImageHeader& header) {
-  if (!header.plain_grey || header.may_be_turned) return media().decode_image(bytes);
+  if (!header.plain_grey || header.may_be_turned)
+    return media().decode_image(bytes,
+                                is_floating_tiff(bytes) ? Samples::floating : Samples::whole);
   if (header.format == ImageHeader::Format::pgm) return plain_pgm(bytes, header);
   std::optional<GreyImage> image = read_plain_png(bytes, header.width, header.height);
   if (!image) return Unreadable::damaged;
   return *std::move(image);
 }
 
+std::string why(Unreadable fault) {
+  switch (fault) {
+    case Unreadable::too_large:
+      return "has " + std::string(too_many_pixels);
+    case Unreadable::no_levels:
+      return "has floating-point samples that are no grey levels: they must be 0 to 1, or 0 to 255";
+    default:
+      return "is damaged or truncated: it cannot be decoded";
+  }
+}
+
 GreyImage decoded(const std::vector<std::uint8_t>& bytes, const ImageHeader& header,
                   const std::string& path) {
   Decoded<GreyImage> result = decode(bytes, header);
   if (const Unreadable* fault = std::get_if<Unreadable>(&result)) {
-    throw vp::InputError("image '" + path + "' " +
-                         (*fault == Unreadable::too_large
-                              ? "has " + std::string(too_many_pixels)
-                              : "is damaged or truncated: it cannot be decoded"));
+    throw vp::InputError("image '" + path + "' " + why(*fault));
   }
   return std::get<GreyImage>(std::move(result));
 }
 
 }  // namespace
 
+std::size_t pgm_bytes(const std::vector<std::uint8_t>& beginning, const std::string& path) {
+  const ImageHeader header = pgm_header(beginning, path);
+  check_sides(header, path);
+  return header.bytes;
+}
+
+GreyImage decode_image(const std::vector<std::uint8_t>& bytes, const std::string& path) {
+  return decoded(bytes, check_image(bytes, path), path);
+}
+
 std::optional<GreyImage> read_image(const std::string& path) {
   const std::optional<std::vector<std::uint8_t>> bytes = image_bytes(path);
   if (!bytes) return std::nullopt;
-  return decoded(*bytes, check_image(*bytes, path), path);
+  return decode_image(*bytes, path);
 }
 
 std::optional<ImageSize> inspect_image(const std::string& path) {

@@ -31,6 +31,7 @@ struct ImageHeader {
   /// swapped.
   bool may_be_turned = false;
   std::size_t pixel_offset = 0;  ///< of the first pixel, for pgm
+  std::size_t bytes = 0;         ///< of header and pixels, for pgm
 };
 
 /// So many bytes of a file tell its format.
@@ -44,6 +45,12 @@ ImageHeader::Format announced_format(const std::vector<std::uint8_t>& bytes);
 /// without a word otherwise. Throws vp::InputError that names `path`: truncated, damaged,
 /// zero-sized, or with more pixels than most_pixels.
 ImageHeader check_image(const std::vector<std::uint8_t>& bytes, const std::string& path);
+
+/// So many bytes an image has that begins like this, a binary PGM. Throws vp::InputError.
+std::size_t pgm_bytes(const std::vector<std::uint8_t>& beginning, const std::string& path);
+
+/// A whole image file's content as 8-bit grey (see read_image). `path` names it.
+GreyImage decode_image(const std::vector<std::uint8_t>& bytes, const std::string& path);
 
 /// Reads an image file as 8-bit grey (see Media::read_image). Plain 8-bit grey PNG and PGM files
 /// are read directly, all others by OpenCV; the pixels are the same either way. Nothing if the file

@@ -111,6 +111,10 @@ Json scene_json(const Scene& scene) {
   json["noise"] = scene.noise_sigma;
   json["blur"] = scene.blur_sigma_px;
   json["seed"] = scene.seed;
+  // What scenes of earlier versions do not have changes none of their hashes.
+  if (!scene.response.empty()) json["response"] = scene.response;
+  if (scene.hidden > 0) json["hidden"] = scene.hidden;
+  if (scene.jpeg > 0) json["jpeg"] = scene.jpeg;
   return json;
 }
 

@@ -58,17 +58,24 @@ class Tiff {
   bool is_little_, is_big_;
 };
 
+constexpr std::uint64_t sample_format = 339;
+constexpr std::uint64_t floating_samples = 3;
+
+bool is_tiff(const Bytes& bytes) {
+  return bytes.size() >= 8 && (bytes[0] == 'I' || bytes[0] == 'M') && bytes[1] == bytes[0];
+}
+
 std::string unread_tiff(const Bytes& bytes) {
-  constexpr std::uint64_t subfile_type = 254, bits_per_sample = 258, sample_format = 339;
-  constexpr std::uint64_t signed_samples = 2, floating_samples = 3, reduced = 1;
+  constexpr std::uint64_t subfile_type = 254, bits_per_sample = 258;
+  constexpr std::uint64_t signed_samples = 2, reduced = 1;
   const Tiff tiff(bytes);
   const std::uint64_t page = tiff.first();
   const std::string advice = ": save it with 8 or 16 bits of grey or colour";
   const std::uint64_t format = tiff.value(page, sample_format).value_or(1);
-  if (format == floating_samples) return "is a TIFF with floating-point samples" + advice;
   if (format == signed_samples) return "is a TIFF with signed samples" + advice;
   const std::uint64_t bits = tiff.value(page, bits_per_sample).value_or(1);
-  if (bits > 16) return "is a TIFF with samples of " + std::to_string(bits) + " bits" + advice;
+  const bool is_read = bits <= 16 || (format == floating_samples && (bits == 32 || bits == 64));
+  if (!is_read) return "is a TIFF with samples of " + std::to_string(bits) + " bits" + advice;
   const std::uint64_t second = tiff.next(page);
   const bool is_preview =
       second != 0 && (tiff.value(second, subfile_type).value_or(0) & reduced) != 0;
@@ -81,8 +88,7 @@ std::string unread_tiff(const Bytes& bytes) {
 
 std::string unread_kind(const Bytes& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::string_view magic = text.substr(0, 2);
-  if (bytes.size() >= 8 && (magic == "II" || magic == "MM")) return unread_tiff(bytes);
+  if (is_tiff(bytes)) return unread_tiff(bytes);
   // RIFF, size, "WEBP"; then the chunk VP8X with its size, and flags (WebP container).
   constexpr std::size_t flags_at = 20;
   constexpr std::uint8_t animation = 0x02;
@@ -90,6 +96,12 @@ std::string unread_kind(const Bytes& bytes) {
                            text.substr(8, 8) == "WEBPVP8X" && (bytes[flags_at] & animation) != 0;
   if (is_animated) return "is an animated WebP: save its pictures one by one, or as a video (AVI)";
   return "";
+}
+
+bool is_floating_tiff(const std::vector<std::uint8_t>& bytes) {
+  if (!is_tiff(bytes)) return false;
+  const Tiff tiff(bytes);
+  return tiff.value(tiff.first(), sample_format).value_or(1) == floating_samples;
 }
 
 }  // namespace platform::input

@@ -3,6 +3,7 @@
 #include <host/process.h>
 #include <marker/input/image_file.h>
 #include <marker/input/media.h>
+#include <marker/input/pgm_stream.h>
 #include <vp/error.h>
 
 #define MARKERVP_TEXT_OF(name) #name
@@ -26,6 +27,7 @@ const Media& media() {
 
 std::unique_ptr<VideoStream> open_video(const std::string& path) {
   require_regular_file(path);
+  if (is_pgm_stream(path)) return open_pgm_stream(path);
   Decoded<std::unique_ptr<VideoStream>> video = media().open_video(path);
   const Unreadable* fault = std::get_if<Unreadable>(&video);
   if (fault == nullptr) return std::get<std::unique_ptr<VideoStream>>(std::move(video));

@@ -19,7 +19,14 @@ constexpr std::uint64_t most_pixels = 8192 * 8192;
 constexpr const char* too_many_pixels = "more pixels than 8192x8192: scale it down first";
 
 /// Why codecs give nothing.
-enum class Unreadable { damaged, too_large };
+enum class Unreadable {
+  damaged,
+  too_large,
+  no_levels  ///< its floating-point samples are no grey levels
+};
+
+/// What an image's samples are.
+enum class Samples { whole, floating };
 
 template <typename Content>
 using Decoded = std::variant<Content, Unreadable>;
@@ -41,15 +48,17 @@ class Media {
  public:
   virtual ~Media() = default;
   /// Decodes an image file's content to 8 bits of grey: colour by the codec's or OpenCV's luma, 16
-  /// bits by their upper 8, alpha ignored, turned upright where the file says how.
-  virtual Decoded<GreyImage> decode_image(const std::vector<std::uint8_t>& bytes) const = 0;
+  /// bits by their upper 8, alpha ignored, turned upright where the file says how. Floating-point
+  /// samples are shares of white if none is above 1, else levels up to 255.
+  virtual Decoded<GreyImage> decode_image(const std::vector<std::uint8_t>& bytes,
+                                          Samples samples) const = 0;
   /// Opens a regular file. Reads no other file that it names, and gives up after half a minute of
   /// searching for a picture.
   virtual Decoded<std::unique_ptr<VideoStream>> open_video(const std::string& path) const = 0;
 };
 
 /// Raised with every change of the classes above: the plug-in's entry point carries it in its name.
-#define MARKERVP_MEDIA_ENTRY markervp_media_2
+#define MARKERVP_MEDIA_ENTRY markervp_media_3
 
 /// The plug-in, loaded on the first call from `libmarkervp_media.so` in one of library_folders().
 /// Throws vp::InputError if it is missing or does not fit.

@@ -13,6 +13,8 @@ namespace platform::input {
 
 namespace {
 
+constexpr double white = 255;
+
 GreyImage grey_image(const cv::Mat& picture) {
   cv::Mat grey;
   switch (picture.channels()) {
@@ -33,6 +35,18 @@ GreyImage grey_image(const cv::Mat& picture) {
     image.pixels.insert(image.pixels.end(), row, row + grey.cols);
   }
   return image;
+}
+
+/// Floating-point samples as grey levels.
+Decoded<GreyImage> levels(const cv::Mat& picture) {
+  if (picture.empty()) return Unreadable::damaged;
+  double least = 0, most = 0;
+  cv::minMaxLoc(picture.reshape(1), &least, &most);
+  const bool is_finite = cv::checkRange(picture);
+  if (!is_finite || least < 0 || most > white) return Unreadable::no_levels;
+  cv::Mat whole;
+  picture.convertTo(whole, CV_8U, most <= 1 ? white : 1);
+  return grey_image(whole);
 }
 
 /// libjpeg fills what is missing with grey and only says so.
@@ -84,9 +98,11 @@ class OpencvMedia : public Media {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   }
 
-  Decoded<GreyImage> decode_image(const std::vector<std::uint8_t>& bytes) const override {
+  Decoded<GreyImage> decode_image(const std::vector<std::uint8_t>& bytes,
+                                  Samples samples) const override {
     const host::StderrCapture noise;
     try {
+      if (samples == Samples::floating) return levels(cv::imdecode(bytes, cv::IMREAD_UNCHANGED));
       const cv::Mat picture = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
       if (picture.empty() || complains(noise.text())) return Unreadable::damaged;
       return grey_image(picture);

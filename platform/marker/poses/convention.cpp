@@ -61,6 +61,18 @@ const std::vector<Convention>& conventions() {
   return all;
 }
 
+FoundPose with_side(const FoundPose& found, double side_m) {
+  const double ratio = side_m / found.side_m;
+  FoundPose result = found;
+  result.side_m = side_m;
+  if (result.pose) result.pose->translation *= ratio;
+  for (std::size_t i = 0; result.covariance && i < 36; ++i) {
+    if (i / 6 >= 3) (*result.covariance)[i] *= ratio;
+    if (i % 6 >= 3) (*result.covariance)[i] *= ratio;
+  }
+  return result;
+}
+
 FoundPose in_convention(const Convention& convention, const FoundPose& found) {
   FoundPose result = found;
   const bool turned = is_turned(convention, found.family);

@@ -43,6 +43,10 @@ struct FoundPose {
   bool is_board() const { return family.empty(); }
 };
 
+/// The same marker, as result.json has it, if its side is another one: distances and what is unsure
+/// of them are in proportion.
+FoundPose with_side(const FoundPose& found, double side_m);
+
 /// From result.json to a convention. A board keeps its frame: top left corner, x right, y down, z
 /// away, as OpenCV has it from 4.7 on.
 FoundPose in_convention(const Convention& convention, const FoundPose& found);

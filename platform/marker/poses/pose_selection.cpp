@@ -2,19 +2,61 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <set>
 
 #include <vp/error.h>
 #include <vp/text.h>
+#include <vp/unit.h>
 #include <Eigen/Geometry>
 
 namespace platform::poses {
+
+namespace {
+
+/// As large as the rules say.
+FoundPose sized(const FoundPose& found, const TextOptions& options) {
+  if (found.is_board()) return found;
+  const int id = std::stoi(found.name);
+  for (auto rule = options.sides.rbegin(); rule != options.sides.rend(); ++rule) {
+    if (rule->first_id <= id && id <= rule->last_id) return with_side(found, rule->side_m);
+  }
+  return found;
+}
+
+}  // namespace
+
+SideRule side_rule(const std::string& text) {
+  SideRule rule{0, std::numeric_limits<int>::max()};
+  const std::size_t sign = text.find('=');
+  if (sign != std::string::npos) {
+    int end = 0;
+    const std::string ids = text.substr(0, sign);
+    const int numbers =
+        std::sscanf(ids.c_str(), "%d%n-%d%n", &rule.first_id, &end, &rule.last_id, &end);
+    if (numbers == 1) rule.last_id = rule.first_id;
+    if (numbers < 1 || static_cast<std::size_t>(end) != ids.size() || rule.first_id < 0 ||
+        rule.last_id < rule.first_id)
+      throw vp::InputError("--side '" + text + "': '" + ids +
+                           "' is no ID and no range of IDs, as 7 or 10-19");
+  }
+  try {
+    rule.side_m =
+        vp::parse_quantity(text.substr(sign == std::string::npos ? 0 : sign + 1), vp::Unit::length)
+            .to_double();
+  } catch (const vp::InputError& error) {
+    throw vp::InputError("--side '" + text + "': the side " + error.what());
+  }
+  if (!(rule.side_m > 0)) throw vp::InputError("--side '" + text + "': a side is longer than 0");
+  return rule;
+}
 
 std::vector<FoundPose> found_in(const PoseFrame& frame, const TextOptions& options) {
   std::vector<FoundPose> chosen;
   for (const FoundPose& found : frame.found) {
     if (!options.name || found.name == *options.name)
-      chosen.push_back(in_convention(*options.convention, found));
+      chosen.push_back(in_convention(*options.convention, sized(found, options)));
   }
   return chosen;
 }

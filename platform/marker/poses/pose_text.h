@@ -9,11 +9,21 @@
 
 namespace platform::poses {
 
+/// How large markers are.
+struct SideRule {
+  int first_id = 0, last_id = 0;
+  double side_m = 0;
+};
+
+/// "7=0.05m", "10-19=0.2m", or "0.1m" for all. Throws vp::InputError.
+SideRule side_rule(const std::string& text);
+
 /// How poses are written.
 struct TextOptions {
   const Convention* convention = nullptr;
   std::string camera_frame = "camera_optical_frame";  ///< frame_id of ROS' messages
   std::optional<std::string> name = {};  ///< only this marker, "7", or "board"; none: all
+  std::vector<SideRule> sides = {};  ///< the last one that fits counts; none: as the run took it
 };
 
 /// Poses as a text.

@@ -1,7 +1,9 @@
+#include <marker/light_curves.h>
 #include <marker/scene/conditions.h>
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -69,7 +71,10 @@ class Conditions {
         {"time", &Conditions::set_time},
         {"exposure", &Conditions::set_exposure},
         {"readout", &Conditions::set_readout},
-        {"vignetting", &Conditions::set_vignetting}};
+        {"vignetting", &Conditions::set_vignetting},
+        {"response", &Conditions::set_response},
+        {"hidden", &Conditions::set_hidden},
+        {"jpeg", &Conditions::set_jpeg}};
     return all;
   }
 
@@ -139,6 +144,24 @@ class Conditions {
   void set_exposure(const std::string& text) { scene_.shutter.exposure_s = seconds(text); }
   void set_readout(const std::string& text) { scene_.shutter.readout_s = seconds(text); }
   void set_vignetting(const std::string& text) { scene_.vignetting = number(text, vp::Unit::none); }
+
+  void set_hidden(const std::string& text) { scene_.hidden = number(text, vp::Unit::none); }
+  void set_jpeg(const std::string& text) { scene_.jpeg = whole(text, 1, 100); }
+  void set_response(const std::string& text) {
+    marker::LightTable light;
+    if (text == "srgb") {
+      marker::fill_srgb_light(light);
+    } else if (text == "rec709") {
+      marker::fill_rec709_light(light);
+    } else {
+      const double exponent = number(text, vp::Unit::none);
+      if (!(exponent >= 0.5 && exponent <= 5))
+        throw vp::InputError("is neither srgb nor rec709, nor an exponent from 0.5 to 5");
+      marker::fill_light(exponent, light);
+    }
+    scene_.response = text;
+    scene_.light_of_levels = std::make_shared<const marker::LightTable>(light);
+  }
 
   Scene& scene_;
   bool placed_ = false, all_markers_ = false, lasts_ = false;

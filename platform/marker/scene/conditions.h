@@ -29,6 +29,9 @@ std::vector<Square> squares_around(int count);
 ///   exposure               time for which a row gathers light: the motion's blur
 ///   readout                time from the first row's exposure to the last's: a rolling shutter
 ///   vignetting             share of the light that is missing in the farthest corner
+///   response               what light grey levels stand for: srgb, rec709 or an exponent
+///   hidden                 radius of a disc over the marker's top left corner, share of its side
+///   jpeg                   quality of the file that the picture was in, 1 to 100
 ///
 /// One of the first four places the marker anew; those of them that are not given are 1 m and 0.
 /// Throws vp::InputError for what is not one, and for a scene that cannot be rendered then.

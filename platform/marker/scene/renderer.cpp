@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <marker/scene/camera_effects.h>
 #include <marker/scene/portable_math.h>
 #include <marker/scene/renderer.h>
 #include <marker/scene/scene.h>
@@ -421,6 +422,7 @@ std::vector<double> render_light(const Scene& scene) {
   validate(scene);
   std::vector<double> light =
       scene.motion.any() ? moving_light(scene) : Painter(scene, {0, scene.camera.height}).paint();
+  if (scene.hidden > 0) hide_corner(scene, light);
   if (scene.blur_sigma_px >= smallest_blur_px) {
     gaussian_blur(light, scene.camera.width, scene.camera.height, scene.blur_sigma_px);
   }
@@ -434,10 +436,12 @@ GreyImage render(const Scene& scene) {
   image.pixels.reserve(light.size());
   GaussianNoise noise(scene.seed);
   for (double value : light) {
-    const double noisy = value + scene.noise_sigma * noise.next();
+    double noisy = value + scene.noise_sigma * noise.next();
+    if (scene.light_of_levels) noisy = level_of(noisy, *scene.light_of_levels);
     const double rounded = std::floor(noisy * full_scale + 0.5);
     image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(rounded, 0.0, full_scale)));
   }
+  if (scene.jpeg > 0) lose_as_jpeg(image, scene.jpeg);
   return image;
 }
 

@@ -127,6 +127,7 @@ void validate(const Scene& scene) {
   require_range(scene, "brightness of the side walls", light.side_walls, 1, "");
   require_range(scene, "noise", scene.noise_sigma, 1, "");
   require_range(scene, "vignetting", scene.vignetting, 1, "");
+  require_range(scene, "hidden", scene.hidden, 1, "");
   require_range(scene, "blur", scene.blur_sigma_px, largest_blur_px, " px");
 }
 

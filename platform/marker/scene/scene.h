@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,12 @@ struct Scene {
   double blur_sigma_px = 0;  ///< deviation of the lens blur, px; 0: none
   double vignetting = 0;     ///< share of the light that is missing in the farthest corner
   std::uint64_t seed = 0;    ///< of the noise
+  /// What light the camera's grey levels stand for: "srgb", "rec709" or an exponent, and its table;
+  /// none: they are light.
+  std::string response;
+  std::shared_ptr<const marker::LightTable> light_of_levels;
+  double hidden = 0;  ///< radius of a disc over the marker's top left corner, share of its side
+  int jpeg = 0;       ///< quality of the file that the picture was in, 1 to 100; 0: none
 };
 
 /// What a perfect detector would find.
@@ -108,7 +115,8 @@ double exposure_time(const Scene& scene, double y_px);
 /// Throws vp::InputError if the scene cannot be rendered: camera or pose invalid, a marker corner
 /// not in front of the camera, the camera behind the marker or outside the room, an unknown ID,
 /// overlapping squares, a level, noise or vignetting outside 0 to 1, a blur outside 0 to 100 px, a
-/// negative exposure, or a motion that makes it so while the picture is taken.
+/// hidden part outside 0 to 1, a negative exposure, or a motion that makes it so while the picture
+/// is taken.
 void validate(const Scene& scene);
 
 /// Corners may lie outside the picture. Throws vp::InputError like validate().

@@ -246,4 +246,46 @@ BOOST_AUTO_TEST_CASE(a_video_without_frames_is_refused) {
   CHECK_REFUSED(open_inputs({folder / "clip.avi"}, small_frames()), "clip.avi'");
 }
 
+BOOST_AUTO_TEST_CASE(a_sequence_is_the_pictures_of_a_video) {
+  const TemporaryFolder folder;
+  for (const char* name :
+       {"f_0009.png", "f_0010.png", "f_0008.png", "f_008.png", "f_x.png", "f_10000.png"})
+    cv::imwrite(folder / name, pattern(64, 32));
+  const auto source = open_inputs({folder / "f_%04d.png"}, small_frames());
+  const std::vector<InputFrame> frames = all(*source);
+  BOOST_TEST_REQUIRE(frames.size() == 4u);
+  BOOST_TEST(frames[0].name == "f_0008.png");
+  BOOST_TEST(frames[3].name == "f_10000.png");
+  BOOST_TEST(!frames[0].settles_after(nullptr), "shown once, as a video");
+  BOOST_TEST(contains(source->warnings()[0], "f_0011.png' is missing"), source->warnings()[0]);
+  BOOST_TEST(names(*open_inputs({folder / "f_%03d.png"}, small_frames())) ==
+             (Names{"f_008.png", "f_10000.png"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_sequence_without_files_is_refused) {
+  const TemporaryFolder folder;
+  CHECK_REFUSED(open_inputs({folder / "f_%04d.png"}, small_frames()), "f_0000.png for example");
+  CHECK_REFUSED(open_inputs({"/no/such/folder/%d.png"}, small_frames()), "cannot be read");
+  CHECK_REFUSED(open_inputs({folder / "f_%s.png"}, small_frames()), "no scene, image, folder");
+  cv::imwrite(folder / "%d.png", pattern(64, 32));
+  BOOST_TEST(names(*open_inputs({folder / "%d.png"}, small_frames())) == Names{"%d.png"});
+}
+
+BOOST_AUTO_TEST_CASE(pgm_images_one_behind_the_other_are_a_video) {
+  const TemporaryFolder folder;
+  const std::string head = "P5\n# of a camera\n64 32\n255\n";
+  std::string stream;
+  for (const char level : {'\x10', '\x20', '\x30'}) stream += head + std::string(64 * 32, level);
+  kit::write_file(folder / "stream", stream);
+  const auto source = open_inputs({folder / "stream"}, small_frames());
+  const std::vector<InputFrame> frames = all(*source);
+  BOOST_TEST_REQUIRE(frames.size() == 3u);
+  BOOST_TEST(frames[2].name == "stream#2");
+  BOOST_TEST(frames[2].image.pixels[0] == 0x30);
+  BOOST_TEST(frames[2].image.pixels.size() == 64u * 32u);
+  stream.pop_back();
+  kit::write_file(folder / "stream", stream);
+  CHECK_REFUSED(all(*open_inputs({folder / "stream"}, small_frames())), "truncated");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

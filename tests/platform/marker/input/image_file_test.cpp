@@ -50,6 +50,35 @@ BOOST_AUTO_TEST_CASE(colour_alpha_and_16_bits_become_grey_as_in_opencv) {
   for (const std::string& name : folder.entries()) check_same_as_opencv(folder / name);
 }
 
+BOOST_AUTO_TEST_CASE(floating_point_samples_are_shares_of_white_or_levels) {
+  const TemporaryFolder folder;
+  const cv::Mat levels = pattern(48, 32);
+  const auto write = [&](const char* name, int depth, double scale, double shift = 0) {
+    cv::Mat floating;
+    levels.convertTo(floating, depth, scale, shift);
+    cv::imwrite(folder / name, floating);
+    return folder / name;
+  };
+  BOOST_TEST(same(*read_image(write("shares.tiff", CV_32F, 1.0 / 255)), levels));
+  BOOST_TEST(same(*read_image(write("wide.tiff", CV_64F, 1.0 / 255)), levels));
+  BOOST_TEST(same(*read_image(write("levels.tiff", CV_32F, 1)), levels));
+  for (const std::string& path :
+       {write("bright.tiff", CV_32F, 2), write("dark.tiff", CV_32F, 1, -1),
+        write("endless.tiff", CV_32F, 1e308 * 10)}) {
+    CHECK_REFUSED(read_image(path), "no grey levels: they must be 0 to 1, or 0 to 255");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_camera_is_refused_with_a_way_to_its_pictures) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/null", folder / "video7");
+  CHECK_REFUSED(read_image(folder / "video7"),
+                "video7 -frames:v 100 -f yuv4mpegpipe - | markervp run -");
+  std::filesystem::create_symlink("/dev/null", folder / "other");
+  CHECK_REFUSED(read_image(folder / "other"), "it is a device, and must be a file");
+  BOOST_TEST(!contains(refusal([&] { read_image(folder / "other"); }), "ffmpeg"));
+}
+
 /// Codecs call them damaged, or give the first picture alone.
 BOOST_AUTO_TEST_CASE(images_that_are_not_read_are_refused_by_kind) {
   const TemporaryFolder folder;
@@ -57,10 +86,6 @@ BOOST_AUTO_TEST_CASE(images_that_are_not_read_are_refused_by_kind) {
     CHECK_REFUSED(read_image(folder / name), problem);
     CHECK_REFUSED(inspect_image(folder / name), problem);
   };
-  cv::Mat floating;
-  pattern(48, 32).convertTo(floating, CV_32F, 1.0 / 255);
-  cv::imwrite(folder / "float.tiff", floating);
-  refuses("float.tiff", "is a TIFF with floating-point samples: save it with 8 or 16 bits");
   cv::imwritemulti(folder / "pages.tiff", std::vector<cv::Mat>{pattern(48, 32), pattern(48, 32)});
   refuses("pages.tiff", "is a TIFF with several pages: save each");
   const std::string vp8x("VP8X\x0A\0\0\0\x02\0\0\0\x2F\0\0\x1F\0\0", 18);

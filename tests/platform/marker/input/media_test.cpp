@@ -9,7 +9,7 @@ using kit::TemporaryFolder;
 BOOST_AUTO_TEST_SUITE(media_plugin)
 
 BOOST_AUTO_TEST_CASE(it_is_found_beside_the_executable) {
-  const Decoded<platform::GreyImage> image = media().decode_image({'B', 'M', 0});
+  const Decoded<platform::GreyImage> image = media().decode_image({'B', 'M', 0}, Samples::whole);
   BOOST_TEST((std::get<Unreadable>(image) == Unreadable::damaged));
 }
 

@@ -145,6 +145,21 @@ BOOST_AUTO_TEST_CASE(the_board_is_one_of_them) {
   BOOST_TEST(out.find(",,board,,0.5,0.25,1.5,") != std::string::npos, out);
 }
 
+BOOST_AUTO_TEST_CASE(markers_may_be_of_several_sizes) {
+  Json covariance = Json::array();
+  for (int row = 0; row < 6; ++row) covariance.push_back(Json::array({1, 1, 1, 1, 1, 1}));
+  markers()[0]["covariance"] = covariance;
+  markers().push_back(marker(8, 0.5));
+  BOOST_TEST(poses({"--format", "json", "--side", "0.1m", "--side", "7-7=400 mm"}) == 0, err);
+  const Json found = Json::parse(out)["markers"];
+  BOOST_TEST(found[0]["side_m"] == 0.4);
+  BOOST_TEST(found[0]["position_m"] == Json({1.0, 0.5, 3.0}));
+  BOOST_TEST(found[0]["covariance"][0] == Json({4.0, 4.0, 4.0, 2.0, 2.0, 2.0}));
+  BOOST_TEST(found[1]["position_m"] == Json({0.25, 0.125, 0.75}));
+  for (const char* wrong : {"7=", "x=1m", "9-7=1m", "7-=1m", "-1=1m", "7=0m", "7=1px", "7=-1m"})
+    BOOST_TEST(refused({"--side", wrong}, "--side '"), wrong << ": " << err);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_said_is_refused) {
   BOOST_TEST(refused({"--id", "9"}, "there is no '9' in it: there are 7"), err);
   BOOST_TEST(refused({"--frame", "opengl"}, "opengl"), err);
