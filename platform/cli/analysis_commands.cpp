@@ -69,10 +69,6 @@ std::vector<study::Objective> known_objectives(const study::Results& results) {
   return objectives;
 }
 
-}  // namespace
-
-namespace {
-
 /// The values of a run: {name: value}, or a table of those whose names have `part` in them.
 std::string values_text(const MetricsOptions& options) {
   const result::Metrics metrics = study::read_comparable(*options.run).metrics;
@@ -91,6 +87,17 @@ std::string values_text(const MetricsOptions& options) {
   return options.json ? json.dump() + "\n" : table.text();
 }
 
+/// The table of figures, or those that have `part` in their paths.
+std::string table_json(const std::string& part) {
+  study::Json chosen = study::Json::array();
+  for (const study::Json& figure : result::figures_json()) {
+    if (figure["path"].get_ref<const std::string&>().find(part) != std::string::npos)
+      chosen.push_back(figure);
+  }
+  if (chosen.empty()) result::check_metric(part, {});
+  return chosen.dump() + "\n";
+}
+
 }  // namespace
 
 int list_metrics(const MetricsOptions& options, std::ostream& out) {
@@ -106,7 +113,7 @@ int list_metrics(const MetricsOptions& options, std::ostream& out) {
     build(configuration, shown);
   }
   if (options.json || options.markdown) {
-    out << (options.json ? result::figures_json().dump() + "\n" : result::metric_markdown());
+    out << (options.json ? table_json(options.part) : result::metric_markdown());
     return done;
   }
   out << result::metric_table(options.part);

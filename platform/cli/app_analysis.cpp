@@ -112,14 +112,16 @@ void add_sweep_worker(CLI::App& app, SweepWorkerOptions& target) {
 
 void add_metrics(CLI::App& app, MetricsOptions& target) {
   CLI::App* command = app.add_subcommand("metrics", "list the figures of runs, or those of one");
-  command->add_option("NAME", target.part, "only those that have this in their name")
-      ->type_name("");
+  CLI::Option* name =
+      command->add_option("NAME", target.part, "only those that have this in their name")
+          ->type_name("");
   CLI::Option* run =
       command->add_option("--of", target.run, "show the values that a run has")->type_name("DIR");
   command->add_option("--design", target.design, "list what this design finds, too")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->excludes(run);
   CLI::Option* json = command->add_flag("--json", target.json, "for programs");
-  command->add_flag("--markdown", target.markdown, "as docs/figures.md")->excludes(json, run);
+  command->add_flag("--markdown", target.markdown, "as docs/figures.md")->excludes(json, run, name);
 }
 
 void add_pareto(CLI::App& app, ParetoOptions& target) {

@@ -74,7 +74,7 @@ class Members {
   }
 
   /// `read` gives a pointer, or an optional, to what `members` are of. `null`: what is absent
-  /// stands there as null.
+  /// is written as null.
   template <class U, class Read>
   Members& object(const std::string& key, const Members<U>& members, Read read, bool null = false) {
     add_figures(members, key);

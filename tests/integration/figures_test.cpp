@@ -33,7 +33,9 @@ platform::GreyImage dots() {
 BOOST_AUTO_TEST_SUITE(figures)
 
 BOOST_AUTO_TEST_CASE(the_documentation_lists_every_figure) {
-  const kit::Outcome outcome = Workplace().run({"metrics", "--markdown"});
+  const Workplace place;
+  const kit::Outcome outcome =
+      kit::run_process(MARKERVP_EXECUTABLE, {"metrics", "--markdown"}, place.path());
   const std::string page =
       kit::read_file(std::filesystem::path(MARKERVP_SOURCE) / "docs/figures.md");
   BOOST_TEST((page == outcome.out),

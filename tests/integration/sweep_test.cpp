@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include <marker/report/marker_metrics.h>
-#include <result/metrics.h>
+#include <result/figures.h>
 #include <study/kept_result.h>
 
 #include "sweeps.h"

@@ -258,6 +258,10 @@ std::string extras_of_page(const fs::path& folder) {
              : "";
 }
 
+[[noreturn]] void refuse_damaged(const std::string& what) {
+  throw vp::InputError(what + " was changed or is damaged: run it again");
+}
+
 /// The tree of a result; the figures that its design declared are known from then on.
 Json checked(const std::string& result, const fs::path& path) {
   const std::string what = "result '" + path.string() + "'";
@@ -265,7 +269,7 @@ Json checked(const std::string& result, const fs::path& path) {
   try {
     result::declare(json.is_object() ? json.value("figures", Json::array()) : Json::array());
   } catch (const Json::exception&) {
-    throw vp::InputError(what + " was changed or is damaged: run it again");
+    refuse_damaged(what);
   }
   return json;
 }
@@ -328,8 +332,14 @@ bool write_comparison(const std::string& first, const std::string& second,
     const fs::path path = fs::path(folder) / "result.json";
     return checked(vp::read_text(path, "result", host::largest_result), path);
   };
-  const Json comparison{{"folders", {first, second}},
-                        {"figures", comparison_rows(result(first), result(second))}};
+  const auto rows = [&] {
+    try {
+      return comparison_rows(result(first), result(second));
+    } catch (const Json::exception&) {
+      refuse_damaged("a result of '" + first + "' and '" + second + "'");
+    }
+  };
+  const Json comparison{{"folders", {first, second}}, {"figures", rows()}};
   blocks.push_back({"comparison", comparison.dump(-1, ' ', false, replace)});
   return write_page(output, blocks);
 }

@@ -122,8 +122,11 @@ BOOST_AUTO_TEST_CASE(the_page_has_what_the_console_says) {
              Json::parse(R"([{"metric":"summary.fps.mean","unit":"1/s","better":1},
                              {"metric":"power.total_w.nominal","unit":"W","better":-1}])"));
   BOOST_TEST(block["constraints"] == Json::parse(R"(["summary.fps.mean >= 60"])"));
-  BOOST_TEST(block["metrics"] == Json::parse(R"([{"path":"summary.fps.mean","unit":"1/s"},
-                                                 {"path":"power.total_w.nominal","unit":"W"}])"));
+  BOOST_TEST(
+      block["metrics"] ==
+      Json::parse(
+          R"([{"path":"summary.fps.mean","title":"Frame rate","unit":"frames/s","factor":1.0,"better":1},
+              {"path":"power.total_w.nominal","title":"Power","unit":"W","factor":1.0,"better":-1}])"));
   BOOST_REQUIRE(block["points"].size() == 5u);
   BOOST_TEST(block["points"][0] == Json::parse(R"({"key":"key of 50 MHz","swept":["50 MHz","1"],
     "metrics":[90.0,2.0],"failed":false,"reasons":[],"front":1})"));

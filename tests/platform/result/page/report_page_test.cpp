@@ -1,4 +1,6 @@
 #include <boost/test/unit_test.hpp>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include <fstream>
@@ -84,8 +86,15 @@ BOOST_AUTO_TEST_CASE(two_runs_are_compared) {
   const std::string text = read(folder / "both.html");
   BOOST_TEST(Json::parse(page::block_of(text, "result"))["frames"][0]["input"] == "z1.0");
   BOOST_TEST(Json::parse(page::block_of(text, "result-b"))["frames"][0]["input"] == "roll30");
-  BOOST_TEST(Json::parse(page::block_of(text, "comparison")) ==
-             Json::array({first.path(), second.path()}));
+  const Json comparison = Json::parse(page::block_of(text, "comparison"));
+  BOOST_TEST(comparison["folders"] == Json::array({first.path(), second.path()}));
+  const Json& rows = comparison["figures"];
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [](const Json& each) { return each["title"] == "Frame rate"; });
+  BOOST_REQUIRE((row != rows.end()));
+  BOOST_TEST((*row)["unit"] == "frames/s");
+  BOOST_TEST((*row)["better"] == 1);
+  BOOST_TEST((*row)["a"] == Json::parse(page::block_of(text, "result"))["summary"]["fps"]["mean"]);
 }
 
 BOOST_AUTO_TEST_CASE(a_folder_without_results_is_refused) {
@@ -104,6 +113,12 @@ BOOST_AUTO_TEST_CASE(a_damaged_result_is_refused) {
   kit::write_file(folder / "result.json", "{\"schema\": 1, \"frames\": [");
   BOOST_CHECK_EXCEPTION(page::write_report(folder.path()), vp::InputError,
                         [](const auto& e) { return names(e, "result.json', line 1, column 2"); });
+  for (const char* wrong : {"[]", R"({"unit": 7})", R"({"figures": [{"path": 1}]})"}) {
+    kit::write_file(folder / "result.json", wrong);
+    BOOST_CHECK_EXCEPTION(
+        page::write_comparison(folder.path(), folder.path(), folder / "both.html"), vp::InputError,
+        [](const auto& e) { return names(e, "was changed or is damaged: run it again"); });
+  }
   BOOST_TEST(folder.entries() == std::vector<std::string>{"result.json"},
              boost::test_tools::per_element());
 }
