@@ -77,6 +77,7 @@ void I2c::control_written(std::uint32_t word) {
   }
   const bool held = state_ == State::held_sending || state_ == State::held_receiving;
   if (held && !cr_.any(ps_i2c::cr::HOLD)) finish();
+  if (monitors_ && state_ == State::address && !cr_.any(ps_i2c::cr::SLVMON)) finish();
   update();
 }
 
@@ -96,6 +97,7 @@ void I2c::address_written() {
 
 void I2c::start_transfer() {
   reads_ = cr_.any(ps_i2c::cr::RW);
+  monitors_ = cr_.any(ps_i2c::cr::SLVMON);
   take(State::address, start_periods + byte_periods);
 }
 

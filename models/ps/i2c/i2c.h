@@ -64,6 +64,7 @@ class I2c : public vp::Clocked, public board::I2cHost {
   vp::Register& imr_;
   State state_ = State::idle;
   bool reads_ = false;     ///< direction of the transfer
+  bool monitors_ = false;  ///< it polls an address, until SLVMON is cleared
   bool overflow_ = false;  ///< SR.RXOVF
   std::deque<std::uint8_t> fifo_;
   std::uint8_t shifted_ = 0;  ///< the byte that is being sent

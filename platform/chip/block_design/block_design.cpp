@@ -151,6 +151,10 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
 
 vp::Clock* BlockDesign::clock_of(const End& source) {
   if (source.part == "external") return external_.at(source.port)->clk.get();
+  const PlacedPart& part = *design_.part(source.part);
+  const bool is_stub = part.as == "stub" || (part.rtl.empty() && !rule_for(part.vlnv));
+  // Known before it is placed: stubs may drive each other in a ring.
+  if (is_stub && part.clocks.count(source.port) == 0) return nullptr;
   Placed& driver = placed(source.part);
   const auto found = driver.clocks.find(source.port);
   return found == driver.clocks.end() ? nullptr : found->second;

@@ -49,22 +49,23 @@ std::vector<xparameters::FabricInterrupt> fabric_interrupts(Zynq& zynq,
   return list;
 }
 
-Device exported(Zynq& zynq, const HardwareMap& map, const vp::RegisterBank& bank,
-                const HardwareMap::Device& place) {
-  const sc_core::sc_object& module = *bank.get_parent_object();
+/// A device with its lines to the interrupt controllers.
+Device at_place(Zynq& zynq, const HardwareMap& map, const HardwareMap::Device& place,
+                const sc_core::sc_object* module) {
   Device device{capitals(place.name),
                 {},
                 static_cast<std::uint32_t>(place.base),
                 static_cast<std::uint32_t>(place.base + place.size - 1),
                 {},
                 {}};
-  add_build(device, module);
+  if (!module) return device;
+  add_build(device, *module);
   for (const auto& interrupt : map.interrupts) {
     const sc_core::sc_object* line = sc_core::sc_find_object(interrupt.source.c_str());
-    if (line && line->get_parent_object() == &module)
+    if (line && line->get_parent_object() == module)
       device.interrupts.emplace_back(capitals(line->basename()), interrupt.id);
   }
-  device.fabric_interrupts = fabric_interrupts(zynq, module);
+  device.fabric_interrupts = fabric_interrupts(zynq, *module);
   return device;
 }
 
@@ -78,14 +79,10 @@ std::vector<std::string> register_interfaces(const axi::RtlPart& rtl) {
 
 /// Memory, or an IP of which only the address is known. The vendor's tools name the interface of an
 /// IP that is not theirs: EXAMPLE_0_S_AXI_CONTROL.
-Device without_bank(const HardwareMap::Device& place) {
-  Device device{capitals(place.name),
-                {},
-                static_cast<std::uint32_t>(place.base),
-                static_cast<std::uint32_t>(place.base + place.size - 1),
-                {},
-                {}};
+Device without_bank(Zynq& zynq, const HardwareMap& map, const HardwareMap::Device& place) {
   const sc_core::sc_object* object = sc_core::sc_find_object(place.path.c_str());
+  const auto* slave = dynamic_cast<const xilinx::RegisterStub::Slave*>(object);
+  Device device = at_place(zynq, map, place, slave ? slave->get_parent_object() : object);
   std::vector<std::string> interfaces;
   if (const auto* rtl = dynamic_cast<const axi::RtlPart*>(object))
     interfaces = register_interfaces(*rtl);
@@ -300,13 +297,14 @@ std::string xparameters_header(Zynq& zynq) {
   // Those that software can reach, in the order in which drivers number them.
   for (const auto* bank : vp::all_below<vp::RegisterBank>(zynq.pl())) {
     for (const HardwareMap::Device& place : map.devices) {
-      if (place.path == bank->name()) platform.devices.push_back(exported(zynq, map, *bank, place));
+      if (place.path == bank->name())
+        platform.devices.push_back(at_place(zynq, map, place, bank->get_parent_object()));
     }
   }
   for (const HardwareMap::Device& place : map.devices) {
     const auto* bank =
         dynamic_cast<const vp::RegisterBank*>(sc_core::sc_find_object(place.path.c_str()));
-    if (!bank) platform.devices.push_back(without_bank(place));
+    if (!bank) platform.devices.push_back(without_bank(zynq, map, place));
   }
   std::stable_sort(platform.devices.begin(), platform.devices.end(),
                    [](const Device& a, const Device& b) { return a.driver < b.driver; });

@@ -1,5 +1,7 @@
 #include <chip/system/xparameters.h>
 
+#include <vp/text.h>
+#include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
 #include <xilinx/axi_cdma/axi_cdma.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_fifo_mm_s/axi_fifo_mm_s.h>
@@ -10,6 +12,7 @@
 #include <xilinx/axi_timer/axi_timer.h>
 #include <xilinx/axi_uartlite/axi_uartlite.h>
 #include <xilinx/clk_wiz/clk_wiz.h>
+#include <xilinx/register_stub/register_stub.h>
 #include <xilinx/xadc_wiz/xadc_wiz.h>
 
 namespace xparameters {
@@ -110,6 +113,49 @@ void add_uartlite(Device& device, const xilinx::AxiUartlite& uart) {
   device.sdt_options = device.options;
 }
 
+void add_bram(Device& device) {
+  constexpr std::uint32_t width = 32;
+  device.driver = "BRAM";
+  device.compatible = "xlnx,axi-bram-ctrl-4.1";
+  device.options = {{"DATA_WIDTH", width},
+                    {"ECC", 0},
+                    {"FAULT_INJECT", 0},
+                    {"CE_FAILING_REGISTERS", 0},
+                    {"UE_FAILING_REGISTERS", 0},
+                    {"ECC_STATUS_REGISTERS", 0},
+                    {"CE_COUNTER_WIDTH", 0},
+                    {"ECC_ONOFF_REGISTER", 0},
+                    {"ECC_ONOFF_RESET_VALUE", 0},
+                    {"WRITE_ACCESS", 0},
+                    {"S_AXI_BASEADDR", device.base},
+                    {"S_AXI_HIGHADDR", device.last}};
+}
+
+/// A stub of the vendor's IP has its driver's number, as on the chip; what it was built with is
+/// unknown here.
+void add_stub(Device& device, const std::string& vlnv) {
+  static const std::pair<const char*, const char*> drivers[] = {{"axi_dma", "AXIDMA"},
+                                                                {"axi_vdma", "AXIVDMA"},
+                                                                {"axi_cdma", "AXICDMA"},
+                                                                {"axi_gpio", "GPIO"},
+                                                                {"axi_timer", "TMRCTR"},
+                                                                {"axi_intc", "INTC"},
+                                                                {"axi_iic", "IIC"},
+                                                                {"axi_quad_spi", "SPI"},
+                                                                {"axi_uartlite", "UARTLITE"},
+                                                                {"axi_fifo_mm_s", "AXI_FIFO"},
+                                                                {"xadc_wiz", "SYSMON"},
+                                                                {"clk_wiz", "CLK_WIZ"},
+                                                                {"axi_ethernetlite", "EMACLITE"},
+                                                                {"v_tc", "VTC"},
+                                                                {"axi_uart16550", "UARTNS550"}};
+  const std::vector<std::string> words = vp::split(vlnv, ':');
+  if (words.size() != 4 || words[0] != "xilinx.com" || words[1] != "ip") return;
+  for (const auto& [ip, driver] : drivers) {
+    if (words[2] == ip) device.driver = driver;
+  }
+}
+
 }  // namespace
 
 void add_build(Device& device, const sc_core::sc_object& module) {
@@ -154,6 +200,10 @@ void add_build(Device& device, const sc_core::sc_object& module) {
   } else if (dynamic_cast<const xilinx::ClkWiz*>(&module)) {
     device.driver = "CLK_WIZ";
     device.compatible = "xlnx,clocking-wizard";
+  } else if (dynamic_cast<const xilinx::AxiBramCtrl*>(&module)) {
+    add_bram(device);
+  } else if (const auto* stub = dynamic_cast<const xilinx::RegisterStub*>(&module)) {
+    add_stub(device, stub->ip());
   }
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
-// What the drivers know of AXI GPIO and AXI DMA: the values of xparameters.h under the driver's
-// names, whatever the instances are called. A design may have more devices than the header that
-// this library was built with; their values come from the platform (HAL_XPAR), and those here stand
-// where there is no such device.
+// What the drivers know of AXI GPIO, AXI timer and AXI DMA: the values of xparameters.h under the
+// driver's names, whatever the instances are called. A design may have more devices than the header
+// that this library was built with; their values come from the platform (HAL_XPAR), and those here
+// stand where there is no such device.
 
 #include <hal/hal.h>
 #include <xparameters.h>
+
+#include <cstdint>
 
 namespace markervp_compat {
 
@@ -75,6 +77,23 @@ inline unsigned devices(std::uint32_t instances) {
 #define XPAR_AXIDMA_3_M_AXI_S2MM_DATA_WIDTH 32
 #endif
 
+#ifndef XPAR_TMRCTR_0_BASEADDR
+#define XPAR_TMRCTR_0_BASEADDR 0
+#define XPAR_TMRCTR_0_CLOCK_FREQ_HZ 0
+#endif
+#ifndef XPAR_TMRCTR_1_BASEADDR
+#define XPAR_TMRCTR_1_BASEADDR 0
+#define XPAR_TMRCTR_1_CLOCK_FREQ_HZ 0
+#endif
+#ifndef XPAR_TMRCTR_2_BASEADDR
+#define XPAR_TMRCTR_2_BASEADDR 0
+#define XPAR_TMRCTR_2_CLOCK_FREQ_HZ 0
+#endif
+#ifndef XPAR_TMRCTR_3_BASEADDR
+#define XPAR_TMRCTR_3_BASEADDR 0
+#define XPAR_TMRCTR_3_CLOCK_FREQ_HZ 0
+#endif
+
 // A device without interrupts has the number that the vendor's tables have then.
 #ifndef XPAR_XGPIO_0_INTERRUPTS
 #define XPAR_XGPIO_0_INTERRUPTS 0xFFFF
@@ -112,9 +131,24 @@ inline unsigned devices(std::uint32_t instances) {
 #ifndef XPAR_XAXIDMA_3_INTERRUPTS_1
 #define XPAR_XAXIDMA_3_INTERRUPTS_1 0xFFFF
 #endif
+#ifndef XPAR_XTMRCTR_0_INTERRUPTS
+#define XPAR_XTMRCTR_0_INTERRUPTS 0xFFFF
+#endif
+#ifndef XPAR_XTMRCTR_1_INTERRUPTS
+#define XPAR_XTMRCTR_1_INTERRUPTS 0xFFFF
+#endif
+#ifndef XPAR_XTMRCTR_2_INTERRUPTS
+#define XPAR_XTMRCTR_2_INTERRUPTS 0xFFFF
+#endif
+#ifndef XPAR_XTMRCTR_3_INTERRUPTS
+#define XPAR_XTMRCTR_3_INTERRUPTS 0xFFFF
+#endif
 
 #ifndef XPAR_XGPIO_NUM_INSTANCES
 #define XPAR_XGPIO_NUM_INSTANCES 0
+#endif
+#ifndef XPAR_XTMRCTR_NUM_INSTANCES
+#define XPAR_XTMRCTR_NUM_INSTANCES 0
 #endif
 #ifndef XPAR_XAXIDMA_NUM_INSTANCES
 #define XPAR_XAXIDMA_NUM_INSTANCES 0

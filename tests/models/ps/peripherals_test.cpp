@@ -185,6 +185,12 @@ BOOST_AUTO_TEST_CASE(i2c_slave_monitor_and_full_fifo) {
   b.run([] {
     using namespace ps_i2c;
     put(i2c_at + CR, master | divider | cr::SLVMON);
+    put(i2c_at + ADDR, 0x51);  // nothing is there: the poll ends with its bit
+    let_pass(1000 * clock_ps);
+    BOOST_TEST((look(i2c_at + SR) & sr::BA) != 0u);
+    put(i2c_at + CR, master | divider);
+    BOOST_TEST((look(i2c_at + SR) & sr::BA) == 0u);
+    put(i2c_at + CR, master | divider | cr::SLVMON);
     put(i2c_at + ADDR, 0x18);
     i2c_wait(event::SLV_RDY);
     BOOST_TEST((look(i2c_at + CR) & cr::SLVMON) == 0u);

@@ -1,10 +1,11 @@
-// XGpioPs, XTtcPs and the waits of xil_util.h.
+// XGpioPs, XTtcPs, XTmrCtr and the waits of xil_util.h.
 #include <boost/test/unit_test.hpp>
 
 #include <ps_gpio_registers.h>
 #include <ttc_registers.h>
 #include <xgpiops.h>
 #include <xil_util.h>
+#include <xtmrctr.h>
 #include <xttcps.h>
 
 #include "fake_hal.h"
@@ -119,6 +120,78 @@ BOOST_AUTO_TEST_CASE(options_interval_and_prescaler) {
   XTtcPs_CalcIntervalFromFreq(&timer, 10'000, &interval, &prescaler);
   BOOST_CHECK_EQUAL(interval, 11'111);
   BOOST_CHECK_EQUAL(prescaler, XTTCPS_CLK_CNTRL_PS_DISABLE);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+namespace {
+
+constexpr std::uint32_t timer_base = 0x4280'0000;
+
+struct TimerFixture : Fixture {
+  TimerFixture() {
+    state().xparameters = {{"TMRCTR_0_BASEADDR", timer_base},
+                           {"TMRCTR_0_CLOCK_FREQ_HZ", 100'000'000},
+                           {"XTMRCTR_NUM_INSTANCES", 1}};
+    BOOST_REQUIRE_EQUAL(XTmrCtr_Initialize(&timer, 0), XST_SUCCESS);
+    state().accesses.clear();
+  }
+  std::uint32_t& control(unsigned number) {
+    return state().registers[timer_base + number * XTC_TIMER_COUNTER_OFFSET];
+  }
+  XTmrCtr timer;
+  std::vector<u8> handled;
+};
+
+void handle(void* of, u8 number) {
+  static_cast<TimerFixture*>(of)->handled.push_back(number);
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(xtmrctr, TimerFixture)
+
+BOOST_AUTO_TEST_CASE(timers_have_numbers_and_addresses) {
+  BOOST_CHECK(XTmrCtr_LookupConfig(timer_base) == XTmrCtr_LookupConfig(0));
+  BOOST_CHECK(XTmrCtr_LookupConfig(1) == nullptr);
+  BOOST_CHECK_EQUAL(XTmrCtr_Initialize(&timer, 1), XST_DEVICE_NOT_FOUND);
+}
+
+BOOST_AUTO_TEST_CASE(starts_from_the_reset_value) {
+  XTmrCtr_SetOptions(&timer, 1, XTC_INT_MODE_OPTION | XTC_AUTO_RELOAD_OPTION);
+  BOOST_CHECK_EQUAL(XTmrCtr_GetOptions(&timer, 1), XTC_INT_MODE_OPTION | XTC_AUTO_RELOAD_OPTION);
+  XTmrCtr_SetResetValue(&timer, 1, 7);
+  XTmrCtr_Start(&timer, 1);
+  BOOST_CHECK(writes_to(timer_base + 0x14) == Words{7});
+  BOOST_CHECK(writes_to(timer_base + 0x10) == (Words{0x50, 0x20, 0xD0}));
+  BOOST_CHECK_EQUAL(XTmrCtr_InitHw(&timer), XST_SUCCESS);  // of the other one
+  BOOST_CHECK_EQUAL(control(1), 0xD0u);
+  XTmrCtr_Stop(&timer, 1);
+  BOOST_CHECK_EQUAL(control(1), 0x50u);
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_stops_a_timer_that_does_not_reload) {
+  XTmrCtr_SetHandler(&timer, handle, this);
+  control(0) = XTC_CSR_ENABLE_INT_MASK | XTC_CSR_INT_OCCURED_MASK | XTC_CSR_ENABLE_TMR_MASK;
+  control(1) = XTC_CSR_INT_OCCURED_MASK;  // masked
+  XTmrCtr_InterruptHandler(&timer);
+  BOOST_CHECK(handled == std::vector<u8>{0});
+  BOOST_CHECK(writes_to(timer_base) == (Words{0x160, 0x140}));
+  BOOST_CHECK(writes_to(timer_base + 0x10).empty());
+  control(0) = XTC_CSR_ENABLE_INT_MASK | XTC_CSR_INT_OCCURED_MASK | XTC_CSR_ENABLE_TMR_MASK |
+               XTC_CSR_AUTO_RELOAD_MASK;
+  XTmrCtr_InterruptHandler(&timer);
+  BOOST_CHECK_EQUAL(writes_to(timer_base).back(), 0x1D0u);
+  XTmrCtrStats stats;
+  XTmrCtr_GetStats(&timer, &stats);
+  BOOST_CHECK_EQUAL(stats.Interrupts, 2u);
+}
+
+BOOST_AUTO_TEST_CASE(pulse_width) {
+  BOOST_CHECK_EQUAL(XTmrCtr_PwmConfigure(&timer, 1000, 250), 23);  // 98 and 23 counts
+  BOOST_CHECK(writes_to(timer_base + 4) == Words{98});
+  BOOST_CHECK(writes_to(timer_base + 0x14) == Words{23});
+  BOOST_CHECK_EQUAL(XTmrCtr_PwmConfigure(&timer, 100, 200), XST_INVALID_PARAM);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

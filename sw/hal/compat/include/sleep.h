@@ -3,6 +3,8 @@
 
 /* Waits by looking at the global timer; interrupts are served meanwhile. Declared as POSIX does. */
 
+#include <xil_io.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif

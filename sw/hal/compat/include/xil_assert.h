@@ -3,6 +3,7 @@
 
 /* Checks of arguments: one that fails says where, and ends the program as a failure. */
 
+#include <string.h>
 #include <xil_types.h>
 
 #ifdef __cplusplus

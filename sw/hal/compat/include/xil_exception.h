@@ -6,6 +6,7 @@
 #include <bspconfig.h>
 #include <hal/hal.h>
 #include <xil_types.h>
+#include <xparameters.h>
 #include <xpseudo_asm.h>
 
 #ifdef __cplusplus

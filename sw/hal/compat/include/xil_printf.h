@@ -1,6 +1,11 @@
 #ifndef XIL_PRINTF_H
 #define XIL_PRINTF_H
 
+/* As the vendor's, which programs rely on. */
+#include <bspconfig.h>
+#include <ctype.h>
+#include <stdarg.h>
+#include <string.h>
 #include <xil_types.h>
 #include <xparameters.h>
 

@@ -141,6 +141,33 @@ BOOST_AUTO_TEST_CASE(masters_in_stubs_need_no_way) {
     if (device.name == "axi_gpio_0") BOOST_TEST(device.base == 0x4120'0000u);
 }
 
+BOOST_AUTO_TEST_CASE(stubs_and_memories_have_the_names_of_their_drivers) {
+  std::string text = replaced(small_design(), "parts:\n",
+                              "parts:\n  video:\n    ip: xilinx.com:ip:axi_vdma:6.3\n"
+                              "    buses: {S_AXI_LITE: periph.M03_AXI}\n"
+                              "  shared:\n    ip: xilinx.com:ip:axi_bram_ctrl:4.1\n"
+                              "    pins: {s_axi_aclk: ps.FCLK_CLK0}\n"
+                              "    buses: {S_AXI: periph.M04_AXI}\n");
+  text = replaced(text, "  ps.M_AXI_GP0:\n",
+                  "  ps.M_AXI_GP0:\n    video.S_AXI_LITE: [0x43000000, 64 KiB]\n"
+                  "    shared.S_AXI: [0x42000000, 8 KiB]\n");
+  text = replaced(text, "of_dma.dout\n", "of_dma.dout\n      In2: video.mm2s_introut\n");
+  text = replaced(text, "      IN0_WIDTH: 2\n", "      IN0_WIDTH: 2\n      NUM_PORTS: 3\n");
+  const std::string header = hardware_map(*Built(text).zynq).xparameters;
+  for (const char* line :
+       {"XPAR_VIDEO_DEVICE_ID 0\n", "XPAR_AXIVDMA_0_DEVICE_ID 0\n",
+        "XPAR_AXIVDMA_0_BASEADDR 0x43000000U\n", "XPAR_FABRIC_VIDEO_MM2S_INTROUT_INTR 64\n",
+        "XPAR_BRAM_0_BASEADDR 0x42000000U\n", "XPAR_BRAM_0_DEVICE_ID 0\n"})
+    BOOST_TEST(header.find("#define " + std::string(line)) != std::string::npos, line);
+}
+
+BOOST_AUTO_TEST_CASE(stubs_may_drive_each_other) {
+  const std::string ring =
+      "parts:\n  life:\n    ip: me:user:life:1.0\n    pins: {q: cells.Q}\n"
+      "  cells:\n    ip: me:user:cells:1.0\n    pins: {Q_PRIME: life.q_prime}\n";
+  BOOST_CHECK_NO_THROW(const Built chip(replaced(small_design(), "parts:\n", ring)));
+}
+
 BOOST_AUTO_TEST_CASE(the_coherent_port_leads_to_the_ddr) {
   std::string text = small_design();
   for (std::size_t at = 0; (at = text.find("S_AXI_HP0", at)) != std::string::npos;)
