@@ -30,10 +30,14 @@ export function waves(run) {
   const here = h("p", { class: "note" });
   const moved = (ps) => {
     const frame = spans.find((one) => ps >= one.from && ps < one.to);
-    here.replaceChildren(frame ? h("button", { type: "button", class: "plain", onclick: () => {
-      pointAt({ ps, frame: frame.index }, section);
-      document.getElementById("frame")?.scrollIntoView();
-    } }, `in ${frame.name}`) : "");
+    const software = viewer.valueOf("ps.cpu.handler_name", ps) || viewer.valueOf("ps.cpu.function_name", ps);
+    const access = viewer.lastOf("ps.cpu.m_axi.access", ps);
+    here.replaceChildren(
+      frame ? h("button", { type: "button", class: "plain", onclick: () => {
+        pointAt({ ps, frame: frame.index }, section);
+        document.getElementById("frame")?.scrollIntoView();
+      } }, `in ${frame.name}`) : "",
+      software && h("span", {}, " · software: ", run.extras.profile ? h("a", { href: "#profile" }, software) : software), access ? ` · last access: ${access}` : "");
   };
   const viewer = waveView(data, { frames: spans, moved });
   onMoment((moment, from) => { if (from !== section && moment.ps !== undefined) viewer.setCursor(moment.ps); });
