@@ -7,7 +7,8 @@ import { waveView } from "../kit/wave_view.js";
 const psInUs = 1e6;
 
 function leftOut(data) {
-  return data.leftOut > 0 && h("p", { class: "note" }, `${counted(data.leftOut, "signal")} had no room here, those that change most: markervp trace plot ${data.file} SIGNAL… --window FROM:TO -o page.html shows them.`);
+  const transactions = data.transactionsLeftOut > 0 && h("p", { class: "note" }, `${counted(data.transactionsLeftOut, "transaction")} had no room here, the last ones: markervp trace transactions ${data.file} lists them.`);
+  return data.leftOut > 0 ? [transactions, h("p", { class: "note" }, `${counted(data.leftOut, "signal")} had no room here, those that change most: markervp trace plot ${data.file} SIGNAL… --window FROM:TO -o page.html shows them.`)] : transactions;
 }
 
 const help = () => h("p", { class: "note" }, "Click sets the cursor, Shift and a click a second one; drag or Shift and the wheel move, Ctrl and the wheel zoom. A row that you choose has its changes behind ‹ and ›.");
