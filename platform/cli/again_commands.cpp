@@ -59,6 +59,7 @@ RunOptions options_of(const std::string& folder) {
   run.trace_clocks = false;
   run.log_bus.reset();
   run.log_bus_filter.clear();
+  run.transactions.reset();
   run.timeline.reset();
   run.register_coverage.reset();
   run.software_profile.reset();

@@ -207,6 +207,10 @@ void add_debug_options(CLI::App& command, RunOptions& target) {
       ->expected(1)
       ->take_all();
   command
+      .add_option("--transactions", target.transactions,
+                  "write what passes the buses, as 'trace transactions --json' does")
+      ->type_name("FILE");
+  command
       .add_option("--register-coverage", target.register_coverage,
                   "write which registers and bits the program used")
       ->type_name("FILE");

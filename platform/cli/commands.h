@@ -108,6 +108,8 @@ int check_rtl(const RtlOptions& options, std::ostream& out, std::ostream& err);
 
 /// Asks a recorded trace: statistics, checks, differences, parts, pictures.
 int ask_trace(const TraceCommandOptions& options, std::ostream& out, std::ostream& err);
+/// `markervp trace check`.
+int check_trace(const TraceCommandOptions& options, std::ostream& out, std::ostream& err);
 /// `markervp trace transactions`.
 int list_transactions(const TraceCommandOptions& options, std::ostream& out, std::ostream& err);
 

@@ -79,6 +79,7 @@ struct RunOptions : PlatformOptions {
   std::uint32_t timeline_frames = 2;
   std::optional<std::string> log_bus;
   std::vector<std::string> log_bus_filter;
+  std::optional<std::string> transactions;
   std::optional<std::string> register_coverage;
   std::optional<std::string> software_profile;
   std::optional<std::string> linux_app;  ///< a Linux application; `inputs` are its arguments

@@ -170,6 +170,7 @@ SimulationOptions simulation_options(const RunOptions& options) {
   if (options.log_bus) result.bus_log = {*options.log_bus, options.log_bus_filter};
   if (options.history) result.history = history_options(*options.history);
   if (options.debug) result.stop = stop_options(*options.debug);
+  result.transactions = options.transactions;
   result.register_coverage = options.register_coverage;
   result.software_profile = options.software_profile;
   if (options.control && !host::is_socket(*options.control)) {
@@ -215,7 +216,7 @@ void check_trace(const RunOptions& options) {
 /// The files that a run writes beside its folder.
 std::vector<std::string> other_outputs(const RunOptions& options) {
   std::vector<std::string> files;
-  for (const auto& file : {options.trace, options.timeline, options.log_bus,
+  for (const auto& file : {options.trace, options.timeline, options.log_bus, options.transactions,
                            options.register_coverage, options.software_profile}) {
     if (file) files.push_back(*file);
   }

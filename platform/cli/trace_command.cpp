@@ -171,81 +171,6 @@ int stats(const TraceCommandOptions& options, std::ostream& out, std::ostream& e
   return done;
 }
 
-/// A page with the signals of the first check that failed, around that time: from before what it
-/// waited for.
-void write_failure(TraceFile& file, const trace::CheckResult& result, const std::string& to) {
-  std::vector<std::string> paths;
-  for (const vp::Expression* expression : {&result.check->first, &result.check->second}) {
-    for (const std::string& name : expression->names()) {
-      paths.push_back(file.paths()[vp::find_path(name, file.paths(), "")]);
-    }
-  }
-  constexpr std::uint64_t ps_per_s = 1'000'000'000'000, cycles_around = 100;
-  const std::uint64_t margin_ps = cycles_around * ps_per_s / result.check->clock_hz;
-  const std::uint64_t before_ps = margin_ps + result.check->limit_ps;
-  trace::SaveFile page;
-  page.comment = result.check->name + ": " + result.check->text;
-  page.lines = trace::save_lines(file, paths);
-  page.marker_ps = result.first_ps;
-  page.start_ps = result.first_ps > before_ps ? result.first_ps - before_ps : 0;
-  page.end_ps = result.first_ps + margin_ps;
-  page.timescale_fs = file.reader().timescale_fs();
-  vp::write_file(to, trace::save_file_text(page));
-}
-
-/// How many checks ended how.
-struct CheckCounts {
-  std::size_t passed = 0, failed = 0, not_exercised = 0, skipped = 0;
-};
-
-CheckCounts print_checks(const std::vector<trace::CheckResult>& results, std::ostream& out) {
-  CheckCounts counts;
-  for (const trace::CheckResult& result : results) {
-    const trace::Check& check = *result.check;
-    if (result.skipped) {
-      ++counts.skipped;
-      out << "SKIP " << check.name << ": " << result.missing << "\n";
-    } else if (!result.exercised()) {
-      ++counts.not_exercised;
-      out << "NOT EXERCISED " << check.name << ": " << check.text << "\n";
-    } else if (result.failures == 0) {
-      ++counts.passed;
-      out << "PASS " << check.name << " (" << result.occasions << " looked at)\n";
-    } else {
-      ++counts.failed;
-      out << "FAIL " << check.name << " at " << vp::format_time(result.first_ps) << ": "
-          << check.text << " (" << result.detail
-          << (result.failures > 1 ? "; " + std::to_string(result.failures) + " times" : "")
-          << ")\n";
-    }
-  }
-  out << counts.passed << " passed, " << counts.failed << " failed";
-  if (counts.not_exercised > 0) out << ", " << counts.not_exercised << " not exercised";
-  if (counts.skipped > 0) out << ", " << counts.skipped << " skipped";
-  out << "\n";
-  return counts;
-}
-
-int check(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
-  const auto checks = trace::read_checks(options.checks);
-  TraceFile file = opened(options);
-  const auto results = trace::run_checks(file, checks, options.skip_missing);
-  const CheckCounts counts = print_checks(results, out);
-  warn_of(file, err);
-  if (counts.failed > 0) {
-    const trace::CheckResult* first = nullptr;
-    for (const trace::CheckResult& result : results) {
-      if (result.failures > 0 && (!first || result.first_ps < first->first_ps)) first = &result;
-    }
-    const std::string page = options.output.value_or(options.file + ".failed.gtkw");
-    write_failure(file, *first, page);
-    out << "look at it: gtkwave " << options.file << " " << page << "\n";
-    return run_failed;
-  }
-  const bool all_exercised = counts.not_exercised + counts.skipped == 0;
-  return options.require_exercised && !all_exercised ? run_failed : done;
-}
-
 void print_events(std::ostream& out, const std::string& title,
                   const std::vector<trace::Difference::Event>& before,
                   const std::vector<trace::Difference::Event>& after) {
@@ -383,7 +308,7 @@ int answer(const TraceCommandOptions& options, std::ostream& out, std::ostream& 
   if (options.command == "transactions") return list_transactions(options, out, err);
   if (options.command == "values") return values(options, out, err);
   if (options.command == "stats") return stats(options, out, err);
-  if (options.command == "check") return check(options, out, err);
+  if (options.command == "check") return check_trace(options, out, err);
   if (options.command == "diff") return diff(options, out, err);
   if (options.command == "plot") return plot(options, out, err);
   if (options.command == "gtkw") return gtkw(options, out, err);

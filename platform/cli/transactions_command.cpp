@@ -4,6 +4,7 @@
 #include <cli/commands.h>
 #include <cli/options.h>
 #include <cli/trace_options.h>
+#include <trace/transactions/json_rows.h>
 #include <trace/transactions/lanes.h>
 #include <trace/transactions/record_fields.h>
 #include <trace/transactions/summary.h>
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -112,36 +114,6 @@ class TextRows {
   trace::Table table_;
 };
 
-/// Objects of JSON: numbers as numbers, what is missing is left out.
-class JsonRows {
- public:
-  explicit JsonRows(std::ostream& out) : out_(out) { out_ << "{\n  \"transactions\": ["; }
-  void add(const Transaction& one, const trace::SurveyedInterface& surveyed) {
-    out_ << (count_++ == 0 ? "\n    {" : ",\n    {");
-    const char* separator = "";
-    for (const TransactionField& field : trace::transaction_fields()) {
-      const std::string text = trace::field_text(field, one, surveyed);
-      if (text.empty()) continue;
-      const bool number = field.type == TransactionField::Type::number ||
-                          field.type == TransactionField::Type::time;
-      out_ << separator << trace::json_text(trace::column_name(field)) << ": "
-           << (number ? text : trace::json_text(text));
-      separator = ", ";
-    }
-    out_ << "}";
-  }
-  /// With the tables, which are keys beside them.
-  void close(const std::vector<trace::Table>& tables, const std::string& hang) {
-    out_ << (count_ == 0 ? "],\n" : "\n  ],\n") << "  \"hang\": " << trace::json_text(hang) << ",";
-    // The object of the tables without its first bracket.
-    out_ << trace::tables_as_json(tables).substr(1);
-  }
-
- private:
-  std::ostream& out_;
-  std::uint64_t count_ = 0;
-};
-
 std::vector<std::string> csv_columns() {
   std::vector<std::string> columns;
   for (const TransactionField& field : trace::transaction_fields())
@@ -195,8 +167,8 @@ int list_transactions(const TraceCommandOptions& options, std::ostream& out, std
   std::optional<trace::PerfettoLanes> perfetto;
   if (options.perfetto) perfetto.emplace(*options.perfetto, survey);
   TextRows text(options.most.value_or(usual_most));
-  std::optional<JsonRows> json;
-  if (options.json) json.emplace(out);
+  std::optional<trace::TransactionsJson> json;
+  if (options.json) json.emplace([&](std::string_view text) { out << text; });
   std::optional<Lines> csv;
   if (options.csv) csv.emplace(options, out, csv_columns());
   std::uint64_t printed = 0;

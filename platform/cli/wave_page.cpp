@@ -73,7 +73,9 @@ class LaneColumns {
     const std::uint64_t begin = std::max(place.from_ps, lane.last_ps);
     trace::append_number(lane.bytes, begin - lane.last_ps);
     trace::append_number(lane.bytes, std::max(place.to_ps, begin) - begin);
-    const std::string text = std::string(one.operation) + " " + trace::lane_text(one);
+    // Without anything to say it is the operation.
+    std::string text = trace::lane_text(one);
+    if (text != one.operation) text = one.operation + (" " + text);
     const auto [known, is_new] = lane.place_of.emplace(text, lane.words.size());
     if (is_new) lane.words.push_back(text);
     trace::append_number(lane.bytes, known->second * 2 + (one.violations.empty() ? 0 : 1));
@@ -98,7 +100,7 @@ class LaneColumns {
   std::uint64_t count_ = 0, left_out_ = 0;
 };
 
-/// The transactions of the buses, if the trace has any.
+/// The transactions of the buses, if the trace has any, and how many there is no room for.
 std::string lanes_json(const TraceCommandOptions& options, const Recording& window) {
   const trace::TransactionsOptions asked;
   std::optional<trace::Survey> survey;
@@ -116,7 +118,7 @@ std::string lanes_json(const TraceCommandOptions& options, const Recording& wind
   constexpr std::uint64_t usual_hang_clocks = 10;
   trace::read_transactions(file, *survey, asked, usual_hang_clocks,
                            [&](const trace::Transaction& one) { columns.add(one); });
-  return columns.json();
+  return columns.json() + ",\"transactionsLeftOut\":" + std::to_string(columns.left_out());
 }
 
 }  // namespace

@@ -16,7 +16,22 @@ namespace {
 /// The most clocks that a link is counted on at a time, until their edges tell which is its own.
 constexpr std::size_t most_clocks = 4;
 
-/// How near a clock is to a link: levels that both are in, then letters that their names share.
+}  // namespace
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return result;
+}
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+std::string_view leaf_of(std::string_view path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
 std::pair<std::size_t, std::size_t> nearness(std::string_view link, std::string_view clock) {
   std::size_t levels = 0, same = 0;
   for (; same < std::min(link.size(), clock.size()) && link[same] == clock[same]; ++same)
@@ -32,22 +47,6 @@ bool may_be_clock(std::string_view path, const vp::WaveVariable& variable) {
   const auto has = [&](const char* word) { return leaf.find(word) != std::string::npos; };
   return (has("clk") || has("clock")) && !has("rst") && !has("reset") && variable.width == 1 &&
          variable.kind == vp::WaveVariable::Kind::bits;
-}
-
-}  // namespace
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return result;
-}
-
-bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
-std::string_view leaf_of(std::string_view path) {
-  return path.substr(path.rfind('.') + 1);
 }
 
 void ClockFit::note(const SampleClock& clock, std::uint64_t ps) {

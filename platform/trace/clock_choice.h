@@ -75,6 +75,11 @@ class ClockSet {
   std::vector<std::optional<std::pair<std::uint32_t, bool>>> wire_of_;  ///< by place
 };
 
+/// How near a clock is to a link: levels that both are in, then letters that their names share.
+std::pair<std::size_t, std::size_t> nearness(std::string_view link, std::string_view clock);
+/// A bit that is called a clock, and not the reset of one.
+bool may_be_clock(std::string_view path, const vp::WaveVariable& variable);
+
 /// A text in small letters.
 std::string lower(std::string_view text);
 bool ends_with(std::string_view text, std::string_view end);

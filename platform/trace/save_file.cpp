@@ -204,6 +204,17 @@ std::string save_file_text(const SaveFile& save) {
   return text;
 }
 
+std::string surfer_commands(const SaveFile& save) {
+  std::string text;
+  for (const SaveFile::Line& line : save.lines)
+    text += (line.title ? "divider_add " : "variable_add ") + line.path + "\n";
+  if (!save.marker_ps) return text + "zoom_fit\n";
+  // In steps of the file's time.
+  const auto steps = static_cast<unsigned __int128>(*save.marker_ps) * 1000 / save.timescale_fs;
+  return text + "cursor_set " + std::to_string(static_cast<std::uint64_t>(steps)) +
+         "\ngoto_cursor\n";
+}
+
 std::vector<SaveFile::Line> save_lines(const TraceFile& file,
                                        const std::vector<std::string>& paths) {
   std::vector<SaveFile::Line> lines;
@@ -257,7 +268,10 @@ std::vector<std::string> write_save_files(TraceFile& file, const Vocabulary& wor
     page.lines.push_back(title);
     page.lines.insert(page.lines.end(), lines.begin(), lines.end());
   }
-  if (!page.lines.empty()) put("system.gtkw", save_file_text(page));
+  if (!page.lines.empty()) {
+    put("system.gtkw", save_file_text(page));
+    put("system.sucl", surfer_commands(page));
+  }
 
   std::map<std::string, std::vector<std::string>> ips;
   for (const std::string& path : file.paths()) {

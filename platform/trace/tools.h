@@ -119,6 +119,9 @@ struct SaveFile {
 };
 
 std::string save_file_text(const SaveFile& save);
+/// The same as commands for Surfer (`surfer TRACE --command-file FILE.sucl`): its state files
+/// change with every version.
+std::string surfer_commands(const SaveFile& save);
 
 /// Save files for what is in the trace: `system.gtkw`, one `<ip>.gtkw` for each IP with its
 /// signals, and the translate files they use (`*.flt`: functions, interrupts, directions,

@@ -28,7 +28,7 @@ struct Traced : integration::Workplace {
     return kit::run_process(MARKERVP_EXECUTABLE, all, path());
   }
   void record(integration::Arguments arguments) const {
-    arguments.insert(arguments.end(), {"-q", "--no-pictures", "--trace", "t.vcd"});
+    arguments.insert(arguments.end(), {"-q", "--no-pictures", "--no-report", "--trace", "t.vcd"});
     BOOST_TEST_REQUIRE(run(arguments).exit_code == 0);
   }
   const integration::Arguments overflowing{"demo",
@@ -93,6 +93,26 @@ BOOST_AUTO_TEST_CASE(our_checks_pass_and_say_where_something_is_lost) {
   BOOST_TEST(bad.out.find("FAIL no_feature_lost at ") != std::string::npos);
   BOOST_TEST(kit::read_file(*this / "t.vcd.failed.gtkw").find("feature_overflow[31:0]") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(each_check_that_fails_has_a_page_with_what_is_around_it) {
+  kit::write_file(*this / "t.vcd",
+                  "$timescale 10ns $end\n$scope module top $end\n$var wire 1 c clk $end\n"
+                  "$scope module a $end\n$var wire 1 ! x $end\n$var wire 8 n fill_level $end\n"
+                  "$var wire 1 o other $end\n$upscope $end\n$scope module b $end\n"
+                  "$var wire 1 y y $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"
+                  "#0 0c 0! b0 n 0o 0y #5 1c #10 0c 1y #20 1!\n#30 1c\n");
+  kit::write_file(*this / "t.checks", "late: never top.a.x\nearly: never top.b.y\n");
+  const kit::Outcome outcome = ask({"check", "t.checks", "t.vcd"});
+  BOOST_TEST(outcome.exit_code == 1, outcome.err);
+  BOOST_TEST(kit::read_file(*this / "t.vcd.failed.gtkw").find("early: ") != std::string::npos);
+  BOOST_TEST(kit::read_file(*this / "t.vcd.failed.sucl") ==
+             "divider_add Check\nvariable_add top.b.y\ndivider_add Clock\nvariable_add top.clk\n"
+             "cursor_set 10\ngoto_cursor\n");
+  BOOST_TEST(kit::read_file(*this / "t.vcd.failed.late.sucl") ==
+             "divider_add Check\nvariable_add top.a.x\ndivider_add Clock\nvariable_add top.clk\n"
+             "divider_add Buffers\nvariable_add top.a.fill_level\n"
+             "divider_add Beside\nvariable_add top.a.other\ncursor_set 20\ngoto_cursor\n");
 }
 
 BOOST_AUTO_TEST_CASE(a_run_does_not_differ_from_itself_but_from_another) {

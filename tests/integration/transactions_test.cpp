@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 
 #include "executable.h"
 
@@ -100,6 +101,45 @@ BOOST_AUTO_TEST_CASE(lanes_in_files) {
       MARKERVP_EXECUTABLE, {"trace", "values", "lanes.fst", "packet_1", "--at", "27ns"}, path());
   BOOST_TEST(values.exit_code == 0, values.err);
   BOOST_TEST(values.out.find("packet") != std::string::npos, values.out);
+}
+
+// No wire is traced: the links tell what passes them.
+BOOST_AUTO_TEST_CASE(a_run_writes_its_transactions_and_is_the_same_with_and_without) {
+  const auto transactions = [&](const std::string& fidelity) {
+    const kit::Outcome outcome = run({"z1.0", "--fidelity", fidelity, "--transactions",
+                                      fidelity + ".json", "--no-report", "--no-pictures"});
+    BOOST_TEST(outcome.exit_code == 0, outcome.err);
+    return nlohmann::json::parse(kit::read_file(*this / (fidelity + ".json")));
+  };
+  const auto tlm = transactions("tlm");
+  const auto with = result()["frames"];
+  run({"z1.0", "--fidelity", "tlm", "--no-report", "--no-pictures"});
+  BOOST_TEST((result()["frames"] == with), "watching changes no result");
+
+  const auto& all = tlm["transactions"];
+  BOOST_TEST_REQUIRE(all.size() > 100u);
+  std::map<std::string, unsigned> seen;
+  std::uint64_t last_ps = 0;
+  for (const auto& one : all) {
+    ++seen[one["interface"].get<std::string>() + " " + one["operation"].get<std::string>()];
+    BOOST_TEST(one["begin_ps"].get<std::uint64_t>() >= last_ps);
+    last_ps = one["begin_ps"].get<std::uint64_t>();
+    BOOST_TEST(one["latency_ps"].get<std::uint64_t>() ==
+               one["end_ps"].get<std::uint64_t>() - last_ps);
+    BOOST_TEST(!one.contains("clocks"), "there is no clock to count by");
+  }
+  BOOST_TEST(seen["ps.cpu.m_axi read"] > 0u);
+  BOOST_TEST(seen["ps.cpu.m_axi write"] > 0u);
+  std::uint64_t written = 0;
+  for (const auto& row : tlm["summary"]) {
+    const std::string key =
+        row["interface"].get<std::string>() + " " + row["operation"].get<std::string>();
+    BOOST_TEST(row["transactions"] == seen[key], key);
+    if (row["interface"].get<std::string>().find("axi_dma_1") != std::string::npos)
+      written += row["bytes"].get<std::uint64_t>();
+  }
+  BOOST_TEST(written == 640u * 480 / 8, "the binary image");
+  BOOST_TEST((transactions("clocked")["transactions"] == all), "both fidelities agree");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

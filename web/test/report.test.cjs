@@ -758,6 +758,7 @@ test("traced: the waves point at the frame, and the timeline at the waves", () =
   await page.waitForSelector(".wave-scroll[data-drawn]");
   assert.ok(await page.$("#waves select"), "frames can be chosen");
   await page.locator(".wave-sight canvas").click({ position: { x: 300, y: 100 } });
+  assert.match(await page.textContent("#waves > .note:last-child"), /^in .* 1 · software: step_\d/);
   await page.click("#waves button.plain");
   assert.equal(await page.$eval("#frame", (section) => section.getBoundingClientRect().top < innerHeight), true);
 }));

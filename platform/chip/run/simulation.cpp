@@ -4,6 +4,7 @@
 #include <chip/system/hardware_map.h>
 #include <chip/watch/debugger.h>
 #include <chip/watch/profiler.h>
+#include <chip/watch/transaction_log.h>
 #include <pl/common/rtl_pins.h>
 #include <ps/cpu/program_watch.h>
 #include <vp/error.h>
@@ -219,6 +220,8 @@ void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   }
   std::optional<BusLog> log;
   if (options_.bus_log) log.emplace(*options_.bus_log, *zynq_);
+  std::optional<TransactionLog> transactions;
+  if (options_.transactions) transactions.emplace(*options_.transactions, *zynq_);
   std::optional<BusHistory> history;
   if (options_.history) history.emplace(*options_.history, *zynq_);
   std::optional<StopPoint> stop;
@@ -231,6 +234,7 @@ void Simulation::run(FrameBench::NextFrame next, FrameBench::FrameDone done) {
   // However the run ended.
   try {
     if (log) log->close();
+    if (transactions) transactions->close();
     if (coverage) coverage->write(register_coverage(*zynq_));
     if (coverage) coverage->commit();
     if (profiler) {

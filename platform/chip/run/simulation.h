@@ -39,6 +39,7 @@ struct SimulationOptions {
   std::optional<vp::TraceOptions> trace = {};  ///< waveforms to record
   std::uint32_t timeline_frames = 0;           ///< record a timeline of so many frames
   std::optional<BusLogOptions> bus_log = {};
+  std::optional<std::string> transactions = {};       ///< file: what passes the buses
   std::optional<BusHistoryOptions> history = {};      ///< the run ends when its time is over
   std::optional<StopOptions> stop = {};               ///< the process stops there, for a debugger
   std::optional<std::string> register_coverage = {};  ///< file: which registers the program used

@@ -92,14 +92,19 @@ const char* answer_of(const tlm::tlm_generic_payload& payload) {
   return payload.get_response_status() == tlm::TLM_ADDRESS_ERROR_RESPONSE ? "DECERR" : "SLVERR";
 }
 
-std::string value_of(const tlm::tlm_generic_payload& payload) {
+/// What was read or written; none of a burst, and of a read that failed.
+std::optional<std::uint32_t> word_of(const tlm::tlm_generic_payload& payload) {
   std::uint32_t word = 0;
-  if (payload.get_data_length() != sizeof word) {
-    return std::to_string(payload.get_data_length()) + " bytes";
-  }
-  if (payload.is_read() && !payload.is_response_ok()) return "-";
+  if (payload.get_data_length() != sizeof word) return std::nullopt;
+  if (payload.is_read() && !payload.is_response_ok()) return std::nullopt;
   std::memcpy(&word, payload.get_data_ptr(), sizeof word);
-  return vp::hex(word);
+  return word;
+}
+
+std::string value_of(const tlm::tlm_generic_payload& payload) {
+  if (const auto word = word_of(payload)) return vp::hex(*word);
+  const unsigned bytes = payload.get_data_length();
+  return bytes == sizeof(std::uint32_t) ? "-" : std::to_string(bytes) + " bytes";
 }
 
 }  // namespace
@@ -119,20 +124,25 @@ void BusWatch::Observer::before(vp::MmLink&, tlm::tlm_generic_payload&, sc_core:
   start_ps_ = watch_.zynq_.scheduler.now_ps() + vp::to_ps(delay);
 }
 
-void BusWatch::Observer::after(vp::MmLink&, tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
+void BusWatch::Observer::after(vp::MmLink&, tlm::tlm_generic_payload& payload,
+                               sc_core::sc_time& delay) {
   if (!watch_.wanted(payload.get_address(), payload.get_data_length())) return;
   watch_.note({start_ps_, name_, is_processor_, payload.is_read(), payload.get_address(),
-               value_of(payload), answer_of(payload)});
+               value_of(payload), answer_of(payload), link_.name(),
+               watch_.zynq_.scheduler.now_ps() + vp::to_ps(delay), payload.get_data_length(),
+               word_of(payload)});
 }
 
 void BusWatch::Observer::direct(vp::MmLink&, tlm::tlm_command command, std::uint64_t address,
                                 std::uint64_t bytes) {
   if (!watch_.wanted(address, bytes)) return;
-  watch_.note({watch_.zynq_.scheduler.now_ps(), name_, is_processor_,
-               command == tlm::TLM_READ_COMMAND, address, std::to_string(bytes) + " bytes", "OK"});
+  const std::uint64_t ps = watch_.zynq_.scheduler.now_ps();
+  watch_.note({ps, name_, is_processor_, command == tlm::TLM_READ_COMMAND, address,
+               std::to_string(bytes) + " bytes", "OK", link_.name(), ps, bytes, std::nullopt});
 }
 
-BusWatch::BusWatch(Zynq& zynq) : zynq_(zynq), names_(hardware_map(zynq)) {
+BusWatch::BusWatch(Zynq& zynq, bool bursts_too)
+    : zynq_(zynq), bursts_too_(bursts_too), names_(hardware_map(zynq)) {
   const auto watch = [this](vp::MmLink& link, const char* name, bool is_processor) {
     observers_.push_back(std::make_unique<Observer>(*this, link, name, is_processor));
   };

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,12 @@ struct BusAccess {
   bool by_processor;
   bool read;
   std::uint64_t address;
-  std::string value;   ///< a burst has its size
-  std::string answer;  ///< as AXI calls it
+  std::string value;     ///< a burst has its size
+  std::string answer;    ///< as AXI calls it
+  const char* link;      ///< that it passed: "ps.cpu.m_axi"
+  std::uint64_t end_ps;  ///< its answer is there; of a burst by direct access `ps`
+  std::uint64_t bytes;
+  std::optional<std::uint32_t> word;  ///< that was read or written, if it is one
 
   /// "320 ns  cpu  read  0x41200000  axi_gpio_0.GPIO_DATA  0x00000000  OK"
   std::string text(const DeviceNames& names) const;
@@ -64,7 +69,8 @@ class BusWatch {
   struct Range {
     std::uint64_t first, last;
   };
-  explicit BusWatch(Zynq& zynq);
+  /// `bursts_too`: each burst of a DMA is a transaction, whose answer is seen.
+  explicit BusWatch(Zynq& zynq, bool bursts_too = false);
 
   /// Only these; otherwise all.
   void watch_only(std::vector<Range> ranges) { ranges_ = std::move(ranges); }
@@ -80,7 +86,7 @@ class BusWatch {
     ~Observer() override { link_.remove_observer(*this); }
     Observer(const Observer&) = delete;
     Observer& operator=(const Observer&) = delete;
-    bool needs_transactions() const override { return is_processor_; }
+    bool needs_transactions() const override { return is_processor_ || watch_.bursts_too_; }
     void before(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) override;
     void after(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) override;
     void direct(vp::MmLink&, tlm::tlm_command, std::uint64_t address, std::uint64_t bytes) override;
@@ -96,6 +102,7 @@ class BusWatch {
   bool wanted(std::uint64_t address, std::uint64_t bytes) const;
 
   Zynq& zynq_;
+  bool bursts_too_;
   DeviceNames names_;
   std::vector<Range> ranges_;
   std::vector<std::unique_ptr<Observer>> observers_;

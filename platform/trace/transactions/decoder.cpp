@@ -19,6 +19,13 @@ void hash_digits(std::uint64_t& hash, std::string_view digits) {
 
 }  // namespace
 
+void add_word(Transaction& to, std::uint32_t word) {
+  std::string digits;
+  for (unsigned bit = 32; bit-- > 0;) digits += (word >> bit & 1U) != 0 ? '1' : '0';
+  hash_digits(to.data_hash, shortest_digits(digits));
+  to.data.push_back(bits_as_hexadecimal(digits));
+}
+
 std::string hexadecimal(std::uint64_t value) {
   char text[20];
   std::snprintf(text, sizeof text, "0x%llx", static_cast<unsigned long long>(value));

@@ -50,6 +50,8 @@ constexpr unsigned bits_per_byte = 8;
 
 /// "0x6000".
 std::string hexadecimal(std::uint64_t value);
+/// Gives a transaction that no trace showed the data of a beat, as decoders do.
+void add_word(Transaction& to, std::uint32_t word);
 /// Digits of a vector as "0xf0", with x where one of four is unknown.
 std::string bits_as_hexadecimal(const std::string& digits);
 

@@ -28,6 +28,12 @@ Found maybe(const std::optional<std::uint64_t>& number) {
   return number ? number_of(*number) : Found();
 }
 
+/// Clocks of waiting; none of a bus that has a clock which is not known.
+Found waited(std::uint64_t clocks, const SurveyedInterface& surveyed) {
+  const bool unknown = is_clocked(surveyed.bus.kind) && !counts_clocks(surveyed);
+  return unknown ? Found() : number_of(clocks);
+}
+
 /// From one time to another, if both are there.
 Found between(const std::optional<std::uint64_t>& from, const std::optional<std::uint64_t>& to) {
   return from && to && *to >= *from ? number_of(*to - *from) : Found();
@@ -119,15 +125,14 @@ const std::vector<Field>& transaction_fields() {
        [](T t, S) { return between(t.accepted_ps, t.end_ps); }},
       {"clocks", Type::number, "of latency",
        [](T t, S s) {
-         return is_clocked(s.bus.kind) && t.end_ps ? number_of(t.end_cycle - t.begin_cycle)
-                                                   : Found();
+         return counts_clocks(s) && t.end_ps ? number_of(t.end_cycle - t.begin_cycle) : Found();
        }},
       {"request_wait", Type::number, "clocks until the request was accepted",
-       [](T t, S) { return number_of(t.request_wait); }},
+       [](T t, S s) { return waited(t.request_wait, s); }},
       {"data_wait", Type::number, "clocks that beats waited for READY",
-       [](T t, S) { return number_of(t.data_wait); }},
+       [](T t, S s) { return waited(t.data_wait, s); }},
       {"response_wait", Type::number, "clocks that the response waited, or the access",
-       [](T t, S) { return number_of(t.response_wait); }},
+       [](T t, S s) { return waited(t.response_wait, s); }},
       {"outstanding", Type::number, "earlier ones that were not over when it began",
        [](T t, S) { return number_of(t.outstanding); }},
       {"overtakes", Type::number, "of them those that were not over when it was",

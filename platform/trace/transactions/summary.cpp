@@ -92,7 +92,7 @@ void TransactionSummary::add(const Transaction& one) {
   group.last_ps = std::max(group.last_ps, *one.end_ps);
   const std::uint64_t ps = *one.end_ps - std::min(one.begin_ps, *one.end_ps);
   group.latency.add(ps);
-  const bool clocked = is_clocked(survey_.interfaces[one.interface].bus.kind);
+  const bool clocked = counts_clocks(survey_.interfaces[one.interface]);
   group.lengths.add(clocked ? one.end_cycle - one.begin_cycle
                             : ps / static_cast<std::uint64_t>(ps_per_ns));
 }
@@ -122,8 +122,8 @@ std::vector<Table> TransactionSummary::tables() const {
                             group.broken, group.beats, group.bytes, rate, group.most_outstanding,
                             in_ns(all.least()), in_ns(all.percentile(half)), all.mean() / ps_per_ns,
                             in_ns(all.percentile(nearly_all)), in_ns(all.most())});
-    add_ranges(latency, surveyed.bus.name, key.second,
-               is_clocked(surveyed.bus.kind) ? "clocks" : "ns", group.lengths);
+    add_ranges(latency, surveyed.bus.name, key.second, counts_clocks(surveyed) ? "clocks" : "ns",
+               group.lengths);
   }
   return {summary, latency};
 }

@@ -316,6 +316,10 @@ void Surveyor::conclude(std::size_t place, Survey& result) {
 
 }  // namespace
 
+bool counts_clocks(const SurveyedInterface& surveyed) {
+  return is_clocked(surveyed.bus.kind) && !surveyed.clock_text.empty();
+}
+
 bool is_clocked(BusKind kind) {
   return kind != BusKind::uart && kind != BusKind::i2c && kind != BusKind::spi &&
          kind != BusKind::irq;

@@ -24,6 +24,9 @@ struct SurveyedInterface {
 /// every change.
 bool is_clocked(BusKind kind);
 
+/// True for a bus whose transactions are counted in clocks. Those that a simulation wrote are not.
+bool counts_clocks(const SurveyedInterface& surveyed);
+
 /// What transactions are found in.
 struct Survey {
   std::vector<SurveyedInterface> interfaces;

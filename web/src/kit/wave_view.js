@@ -168,5 +168,16 @@ export function waveView(data, { frames = [], moved = () => {} } = {}) {
     h("div", { class: "tools" }, button("+", "Zoom in", () => zoom(0.5)), button("−", "Zoom out", () => zoom(2)), button("Fit", "Show all", () => show(whole.from, whole.to)),
       button("‹", "Previous change of the chosen row", () => step(-1)), button("›", "Next change of the chosen row", () => step(1))));
   relist();
-  return { element: h("div", { class: "waves" }, tools, scroller, status), setCursor, show };
+  const byName = new Map(waves.signals.map((signal) => [signal.name, signal]));
+  /** What a signal shows at a time; "" if it is not there. */
+  const valueOf = (name, ps) => (byName.has(name) ? valueAt(byName.get(name), ps) : "");
+  /** The last value of a signal that is not empty, up to a time. */
+  function lastOf(name, ps) {
+    const row = byName.get(name);
+    for (let i = row ? placeAt(row.times, ps) : -1; i >= 0; --i) {
+      if (row.words[row.values[i]] !== "") return row.words[row.values[i]];
+    }
+    return "";
+  }
+  return { element: h("div", { class: "waves" }, tools, scroller, status), setCursor, valueOf, lastOf };
 }

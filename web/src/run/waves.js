@@ -7,7 +7,8 @@ import { waveView } from "../kit/wave_view.js";
 const psInUs = 1e6;
 
 function leftOut(data) {
-  return data.leftOut > 0 && h("p", { class: "note" }, `${counted(data.leftOut, "signal")} had no room here, those that change most: markervp trace plot ${data.file} SIGNAL… --window FROM:TO -o page.html shows them.`);
+  const transactions = data.transactionsLeftOut > 0 && h("p", { class: "note" }, `${counted(data.transactionsLeftOut, "transaction")} had no room here, the last ones: markervp trace transactions ${data.file} lists them.`);
+  return data.leftOut > 0 ? [transactions, h("p", { class: "note" }, `${counted(data.leftOut, "signal")} had no room here, those that change most: markervp trace plot ${data.file} SIGNAL… --window FROM:TO -o page.html shows them.`)] : transactions;
 }
 
 const help = () => h("p", { class: "note" }, "Click sets the cursor, Shift and a click a second one; drag or Shift and the wheel move, Ctrl and the wheel zoom. A row that you choose has its changes behind ‹ and ›.");
@@ -30,10 +31,14 @@ export function waves(run) {
   const here = h("p", { class: "note" });
   const moved = (ps) => {
     const frame = spans.find((one) => ps >= one.from && ps < one.to);
-    here.replaceChildren(frame ? h("button", { type: "button", class: "plain", onclick: () => {
-      pointAt({ ps, frame: frame.index }, section);
-      document.getElementById("frame")?.scrollIntoView();
-    } }, `in ${frame.name}`) : "");
+    const software = viewer.valueOf("ps.cpu.handler_name", ps) || viewer.valueOf("ps.cpu.function_name", ps);
+    const access = viewer.lastOf("ps.cpu.m_axi.access", ps);
+    here.replaceChildren(
+      frame ? h("button", { type: "button", class: "plain", onclick: () => {
+        pointAt({ ps, frame: frame.index }, section);
+        document.getElementById("frame")?.scrollIntoView();
+      } }, `in ${frame.name}`) : "",
+      software && h("span", {}, " · software: ", run.extras.profile ? h("a", { href: "#profile" }, software) : software), access ? ` · last access: ${access}` : "");
   };
   const viewer = waveView(data, { frames: spans, moved });
   onMoment((moment, from) => { if (from !== section && moment.ps !== undefined) viewer.setCursor(moment.ps); });
