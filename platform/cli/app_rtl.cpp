@@ -60,7 +60,7 @@ void add_rtl_prove(CLI::App& rtl, RtlOptions& target) {
   prove->add_option("IP", target.ip, "the IP that it replaces: axi_threshold_bridge")
       ->type_name("")
       ->required();
-  prove->add_option("--rtl", options.rtl, "your own .v, .sv or .vhd files")->type_name("DIR");
+  prove->add_option("--rtl", options.rtl, "your own .v and .sv files")->type_name("DIR");
   prove->add_option("--top", options.top, "the module in them (default: that of the IP's name)")
       ->type_name("MODULE");
   add_reading_options(*prove, options);

@@ -37,22 +37,28 @@ std::vector<InputBit> input_bits(const fs::path& map) {
   return bits;
 }
 
-/// Keeps the values of nets until `bad` was high for an instant.
+/// Keeps the values of nets until `bad` was high for an instant, or else to the end. There x is
+/// high, too: gates have 0 where RTL reads outside of a memory, and its simulation has x.
 class UntilBad final : public vp::WaveHandler {
  public:
   explicit UntilBad(std::uint32_t bad) : bad_(bad) {}
-  bool found() const { return values_.count(bad_) != 0 && values_.at(bad_) == 1; }
-  std::uint64_t value(std::uint32_t net) const {
+  bool is_high(std::uint32_t net) const {
     const auto found = values_.find(net);
-    return found == values_.end() ? 0 : found->second;
+    return found != values_.end() && found->second != "0";
+  }
+  std::string value(std::uint32_t net) const {
+    const auto found = values_.find(net);
+    return found == values_.end() ? "0" : found->second;
   }
 
  private:
-  bool at(std::uint64_t) override { return !found(); }
-  void change(std::uint32_t net, const vp::WaveValue& value) override { values_[net] = value.bits; }
+  bool at(std::uint64_t) override { return value(bad_) != "1"; }
+  void change(std::uint32_t net, const vp::WaveValue& value) override {
+    values_[net] = value.known ? fmt::format("{:x}", value.bits) : "x";
+  }
 
   const std::uint32_t bad_;
-  std::map<std::uint32_t, std::uint64_t> values_;
+  std::map<std::uint32_t, std::string> values_;
 };
 
 }  // namespace
@@ -118,14 +124,14 @@ void Counterexample::read_trace(const Miter& miter) {
     nets.push_back({net("differs_" + name), net("ours_" + name), net("theirs_" + name)});
   UntilBad values(*bad);
   reader.read(values);
-  if (!values.found()) return;
+  if (!values.is_high(*bad)) return;
   for (std::size_t i = 0; i < nets.size(); ++i) {
-    if (!nets[i].differs || values.value(*nets[i].differs) != 1) continue;
+    if (!nets[i].differs || !values.is_high(*nets[i].differs)) continue;
     Difference& difference = differences_.emplace_back();
     difference.name = miter.compared()[i];
     if (!nets[i].theirs) continue;
-    difference.ours = fmt::format("{:x}", values.value(*nets[i].ours));
-    difference.theirs = fmt::format("{:x}", values.value(*nets[i].theirs));
+    difference.ours = values.value(*nets[i].ours);
+    difference.theirs = values.value(*nets[i].theirs);
   }
 }
 

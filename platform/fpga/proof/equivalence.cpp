@@ -99,7 +99,7 @@ std::string circuit_script() {
          "memory_dff\nmemory_collect\nmemory_map\nopt_clean -purge\n"
          "async2sync\nsetundef -zero -init -undriven\nsetundef -zero\n"
          // What simplemap knows it maps faster than techmap.
-         "simplemap\nopt_clean -purge\ntechmap\nsimplemap\ndffunmap\naigmap\n"
+         "simplemap\nopt_clean -purge\ntechmap\nsimplemap\ndffunmap\nsetundef -zero\naigmap\n"
          "write_aiger -zinit -map miter.aim miter.aig\n";
 }
 

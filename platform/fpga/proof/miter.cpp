@@ -146,6 +146,7 @@ void Miter::declare(const std::vector<Port>& ours) {
   verilog_ += ",\n  output bad);\n";
   for (const auto& [name, value] : parameters_)
     verilog_ += fmt::format("localparam {} = {};\n", name, value);
+  if (contract_.frames) verilog_ += "wire [15:0] now_x, now_y;\n";
   for (const Port& port : ours) {
     if (!port.output && is_idle_lane(port.name))
       verilog_ += fmt::format("wire [{}:0] {} = 0;\n", port.bits - 1, port.name);
@@ -155,11 +156,18 @@ void Miter::declare(const std::vector<Port>& ours) {
 void Miter::instance(const char* side, const std::vector<Port>& ports) {
   std::string connections;
   for (const Port& port : ports) {
-    const std::string net = port.output ? fmt::format("{}_{}", side, port.name) : port.name;
+    const std::string net = port.output ? fmt::format("{}_{}", side, port.name) : placed(port.name);
     if (port.output) verilog_ += fmt::format("wire [{}:0] {};\n", port.bits - 1, net);
     connections += fmt::format("{}.{}({})", connections.empty() ? "" : ", ", port.name, net);
   }
   verilog_ += fmt::format("{0} {0}({1});\n", side, connections);
+}
+
+/// Where pixels come in raster order, the modules see the counters that say so, which the input has
+/// to equal: an engine then need not find out that it does.
+std::string Miter::placed(const std::string& input) const {
+  if (!contract_.frames || input.empty()) return input;
+  return input == contract_.frames->x ? "now_x" : input == contract_.frames->y ? "now_y" : input;
 }
 
 /// "por || rst"; "1'b0" without any.
@@ -217,7 +225,7 @@ void Miter::assume_frames(const std::vector<Port>& ours) {
   verilog_ += fmt::format(
       "localparam GAP = {gap};\n"
       "reg frame_before = 0; reg [15:0] next_x = 0, next_y = 0, gap = GAP;\n"
-      "wire [15:0] now_x = frame_before ? next_x : 0, now_y = frame_before ? next_y : 0;\n"
+      "assign now_x = frame_before ? next_x : 0, now_y = frame_before ? next_y : 0;\n"
       "wire row_ends = now_x + {step} == WIDTH;\n"
       "wire over = next_x == 0 && next_y == {height};\n"
       "wire at_place = {at_place};\n"

@@ -54,6 +54,7 @@ class Miter {
   void look_at_rules(const std::vector<Port>& ours);
   void differ(const std::string& name, const std::string& when);
   void end();
+  std::string placed(const std::string& input) const;
   std::string resets() const;
   bool is_idle_lane(const std::string& port) const;
 

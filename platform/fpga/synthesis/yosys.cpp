@@ -197,14 +197,13 @@ void YosysFolder::name_originals(std::string& text) const {
     replace_all(text, include_link(i) + "/", includes_[i].string() + "/");
 }
 
-/// "file:line: " of the `include of a name.
-std::string YosysFolder::includer_of(const std::string& name) const {
+std::string YosysFolder::place_of(const std::string& word, const std::string& name) const {
   for (const fs::path& source : design_.sources) {
     std::istringstream lines(vp::read_text(source, "source"));
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
       ++number;
-      if (line.find("`include") != line.npos && line.find(name) != line.npos)
+      if (line.find(word) != line.npos && line.find(name) != line.npos)
         return source.string() + ":" + std::to_string(number) + ": ";
     }
   }
@@ -241,8 +240,13 @@ void YosysFolder::refuse(const host::CommandEnd& end) const {
   static const std::regex missing("Can't open include file `([^']+)'");
   std::smatch file;
   if (std::regex_search(what, file, missing)) {
-    synthesis::refuse(design_, includer_of(file[1]) + "no file '" + file[1].str() +
+    synthesis::refuse(design_, place_of("`include", file[1]) + "no file '" + file[1].str() +
                                    "' to include: name its folder with --include");
+  }
+  static const std::regex part(R"(Module `\\?([^']+)' referenced in module)");
+  if (std::regex_search(what, file, part)) {
+    synthesis::refuse(design_, place_of(file[1], file[1]) + "no module '" + file[1].str() +
+                                   "' in the sources: add the file that declares it");
   }
   if (what.find("Module `" + design_.top + "' not found") != std::string::npos) {
     const std::vector<std::string> modules = modules_in(design_.sources);

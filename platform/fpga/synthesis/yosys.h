@@ -44,7 +44,8 @@ class YosysFolder {
   std::string reading() const;
   void copy_without_format_widths();
   void name_originals(std::string& text) const;
-  std::string includer_of(const std::string& name) const;
+  /// "file:line: " of the first line with both; "" if there is none.
+  std::string place_of(const std::string& word, const std::string& name) const;
 
   const Design& design_;
   const host::ScratchFolder scratch_{"synth"};

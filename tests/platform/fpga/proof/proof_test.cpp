@@ -93,6 +93,14 @@ BOOST_AUTO_TEST_CASE(a_bug_has_its_clock_its_port_a_trace_and_a_stimulus) {
   BOOST_TEST(contains(kit::read_file(out / trace_name), "$var"));
 }
 
+// Gates read 0 there, and a simulation x.
+BOOST_AUTO_TEST_CASE(reading_outside_of_a_memory_is_a_difference) {
+  copy("feature_packaging", "PAIR_BITS'(PAIRS - 1) ? '0", "PAIR_BITS'(PAIRS) ? '0");
+  const Answer answer = ask("feature_packaging");
+  BOOST_TEST_REQUIRE((answer.verdict == Verdict::different), answer.why);
+  BOOST_TEST(!answer.differences.empty());
+}
+
 // An assumption of the RTL's own would hide the bug.
 BOOST_AUTO_TEST_CASE(what_the_rtl_assumes_is_no_condition) {
   copy("frame_status", "assign busy = started &&",

@@ -1,0 +1,113 @@
+// `markervp rtl prove`: verdicts, exit codes, files, and what is refused.
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "executable.h"
+
+using namespace integration;
+
+namespace {
+
+struct Prove : Workplace {
+  kit::Outcome prove(const Arguments& more) const {
+    Arguments all{"rtl", "prove"};
+    all.insert(all.end(), more.begin(), more.end());
+    return kit::run_process(MARKERVP_EXECUTABLE, all, path());
+  }
+  void check_refused(const Arguments& arguments, const std::string& why) const {
+    const kit::Outcome outcome = prove(arguments);
+    BOOST_TEST(outcome.exit_code == 2);
+    BOOST_TEST(outcome.err.find(why) != std::string::npos, outcome.err << " without " << why);
+  }
+  /// frame_status, whose `busy` is wrong while `wrong` is true. A counter of 40 bits lies beside
+  /// it.
+  kit::Outcome prove_frame_status(const std::string& wrong, const Arguments& more = {}) const {
+    std::filesystem::create_directories(*this / "rtl");
+    kit::write_file(*this / "rtl/own.v", R"(module frame_status (
+  input clk, rst, frame_ena, idle, corner_out, blob_out, output busy, done);
+  reg [3:0] left = 0;
+  reg started = 0;
+  reg [39:0] clocks = 0;
+  always @(posedge clk) begin
+    clocks <= clocks + 1;
+    if (rst) begin left <= 15; started <= 0; end
+    else if (frame_ena) begin left <= 15; started <= 1; end
+    else if (started && left != 0) left <= left - 1;
+  end
+  wire works = started && (left != 0 || !idle || frame_ena);
+  assign busy = works ^ ()" + wrong + R"();
+  assign done = started && !works && !corner_out && !blob_out;
+endmodule
+)");
+    Arguments all{"frame_status", "--rtl", "rtl"};
+    all.insert(all.end(), more.begin(), more.end());
+    return prove(all);
+  }
+  nlohmann::json report() const {
+    return nlohmann::json::parse(kit::read_file(*this / "out/prove.json"));
+  }
+  bool has(const std::string& file) const { return std::filesystem::exists(*this / file); }
+};
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(rtl_prove, Prove)
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_proved_is_refused) {
+  kit::write_file(*this / "own.v", "module own(input a);\nendmodule\n");
+  std::filesystem::create_directories(*this / "empty");
+  check_refused({"frame", "--rtl", "."}, "of an IP 'frame': name ");
+  check_refused({"frame_status", "--rtl", "own.so"}, "reads sources; give their folder");
+  check_refused({"frame_status", "--rtl", "empty"}, "no .v or .sv file");
+  check_refused({"frame_status", "--top", "own"}, "--top is a module of --rtl");
+  check_refused({"frame_status"}, "no stream whose rules");
+  check_refused({"frame_status", "--rtl", ".", "--parameter", "WIDTH"}, "give NAME=NUMBER");
+  check_refused({"frame_status", "--rtl", ".", "--depth", "0"}, "--depth");
+}
+
+#ifdef MARKERVP_PROOFS
+
+BOOST_AUTO_TEST_CASE(equal_rtl_passes) {
+  const kit::Outcome outcome = prove_frame_status("1'b0");
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(says(outcome.out, "PROVED EQUAL: frame_status of 'rtl' and ours"), outcome.out);
+  BOOST_TEST(says(outcome.out, "rst high on the first clock"), outcome.out);
+  BOOST_TEST(report()["verdict"] == "proved");
+  BOOST_TEST(!has("out/prove.vcd"));
+}
+
+BOOST_AUTO_TEST_CASE(a_difference_does_not_pass_and_leaves_its_files) {
+  const kit::Outcome outcome = prove_frame_status("started && clocks == 5");
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(says(outcome.err, "DIFFERENT behind clock 5: busy is 0x"), outcome.err);
+  BOOST_TEST(report()["verdict"] == "different");
+  BOOST_TEST(report()["clocks"] == 5);
+  BOOST_TEST(report()["differences"][0]["name"] == "busy");
+  BOOST_TEST(has("out/prove.vcd"));
+  BOOST_TEST(has("out/stimulus.txt"));
+  // What a later proof does not make does not stay.
+  BOOST_TEST(prove_frame_status("1'b0").exit_code == 0);
+  BOOST_TEST(!has("out/stimulus.txt"));
+}
+
+BOOST_AUTO_TEST_CASE(a_bound_passes_only_where_it_is_said_to_be_enough) {
+  const std::string at_the_end = "started && &clocks";
+  const kit::Outcome bounded = prove_frame_status(at_the_end, {"--time", "4"});
+  BOOST_TEST(bounded.exit_code == 1);
+  BOOST_TEST(says(bounded.out, "EQUAL for "), bounded.out);
+  BOOST_TEST(says(bounded.err, "that is no proof"), bounded.err);
+  BOOST_TEST(report()["verdict"] == "bounded");
+  const kit::Outcome enough = prove_frame_status(at_the_end, {"--time", "4", "--depth", "20"});
+  BOOST_TEST(enough.exit_code == 0, enough.err);
+  BOOST_TEST(says(enough.out, "EQUAL for 20 clocks"), enough.out);
+}
+
+#endif
+
+BOOST_AUTO_TEST_SUITE_END()
