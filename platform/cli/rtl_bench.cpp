@@ -174,6 +174,7 @@ class Bench {
   }
 
   std::vector<pl::Recorded::Set> recorded_pins();
+  void check_fits(const std::string& name, unsigned bits, std::size_t column) const;
   std::uint64_t clocks() const {
     return play_.recorded ? play_.recorded->rows.size() + clocks_behind : played_clocks;
   }
@@ -195,6 +196,16 @@ class Bench {
   const pl::IpPorts* ports_ = nullptr;
 };
 
+/// Throws vp::InputError if a recorded value of input number `column` is wider than its pin.
+void Bench::check_fits(const std::string& name, unsigned bits, std::size_t column) const {
+  const auto& rows = play_.recorded->rows;
+  for (std::size_t i = 0; bits < 64 && i < rows.size(); ++i) {
+    if (rows[i][column] >> bits != 0)
+      throw vp::InputError("--stimulus, line " + std::to_string(i + 2) + ": '" + name + "' has " +
+                           std::to_string(bits) + " bits");
+  }
+}
+
 std::vector<pl::Recorded::Set> Bench::recorded_pins() {
   std::vector<pl::Recorded::Set> pins;
   for (const std::string& name : play_.recorded->names) {
@@ -211,6 +222,7 @@ std::vector<pl::Recorded::Set> Bench::recorded_pins() {
                            (input == inputs.end() ? " is no input" : " is a pin of a sensor") +
                            ": it cannot be played");
     }
+    check_fits(name, input->bits, pins.size());
     pins.push_back(input->write);
   }
   return pins;

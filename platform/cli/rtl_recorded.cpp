@@ -1,5 +1,6 @@
 #include <cli/rtl_recorded.h>
 
+#include <set>
 #include <sstream>
 
 #include <vp/error.h>
@@ -19,8 +20,11 @@ RecordedPins read_recorded(const std::string& file) {
     throw vp::InputError("stimulus '" + file + "', line " + std::to_string(number) + ": " + why);
   };
   if (pins.names.empty()) refuse("give the names of the inputs");
+  if (std::set<std::string>(pins.names.begin(), pins.names.end()).size() != pins.names.size())
+    refuse("each input has a name of its own");
   while (std::getline(lines, line)) {
     ++number;
+    if (line.find_first_of("+-") != std::string::npos) refuse("numbers have no sign");
     std::istringstream words(line);
     std::vector<std::uint64_t>& row = pins.rows.emplace_back();
     for (std::uint64_t value = 0; words >> std::hex >> value;) row.push_back(value);

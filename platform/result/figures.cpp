@@ -94,6 +94,10 @@ void declare(const std::vector<facts::Figure>& list) {
     } else if (other->unit != figure.unit) {
       refuse(figure, "is in " + figure.unit + ", and another design's in " + other->unit + ": " +
                          other->place + " declares it");
+    } else if (other->better != figure.better) {
+      refuse(figure, std::string("is better ") + facts::to_string(figure.better) +
+                         ", and another design's " + facts::to_string(other->better) + ": " +
+                         other->place + " declares it");
     }
   }
 }
@@ -104,6 +108,10 @@ Json to_json(const facts::Figure& figure) {
             {"meaning", figure.meaning},
             {"better", facts::to_string(figure.better)}};
   if (!figure.title.empty()) json["title"] = figure.title;
+  if (!figure.people_unit.empty()) {
+    json["people_unit"] = figure.people_unit;
+    json["factor"] = figure.factor;
+  }
   json["place"] = figure.place;
   return json;
 }
@@ -115,6 +123,8 @@ facts::Figure figure_from(const Json& json) {
                        : better == "less" ? facts::Better::less
                                           : facts::Better::neither,
                        json.value("title", ""));
+  figure.people_unit = json.value("people_unit", "");
+  figure.factor = json.value("factor", 1.0);
   figure.place = json.at("place");
   return figure;
 }

@@ -189,7 +189,8 @@ class Reporter final : public Replay::Listener {
       slots_.push_back(replay_.watch(vp::find_path(name, file.paths(), "values: ")));
   }
 
-  void run() {
+  /// False: nothing more is asked for.
+  bool run() {
     replay_.run(*this);
     if (!times_.empty() && !stopped_) rows_until(replay_.last_ps() + 1, false);
     if (next_ < times_.size() && !stopped_) {
@@ -198,6 +199,7 @@ class Reporter final : public Replay::Listener {
                            vp::format_time(times_[next_]));
     }
     watch_.check_words();
+    return !stopped_;
   }
 
  private:
@@ -270,7 +272,7 @@ void values(TraceFile& file, const ValuesOptions& options,
       return entry && file.reader().entry(ps) != entry;
     });
     if (entry) file.reader().enter(*entry);
-    Reporter(file, options, {begin, end}, take).run();
+    if (!Reporter(file, options, {begin, end}, take).run()) return;
     begin = end;
   }
 }

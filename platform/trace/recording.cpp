@@ -43,6 +43,10 @@ class Recorder final : public vp::WaveHandler {
     }
     reader.read(*this);
     if (!first_) throw vp::InputError("trace '" + file_.name() + "' has no values");
+    if (*first_ >= options_.to_ps) {
+      throw vp::InputError("trace '" + file_.name() + "' begins at " + vp::format_time(*first_) +
+                           ", after the window ends");
+    }
     if (now_ps_ < options_.from_ps) {
       throw vp::InputError("trace '" + file_.name() + "' ends at " + vp::format_time(now_ps_) +
                            ", before the window begins");
@@ -100,13 +104,17 @@ class Recorder final : public vp::WaveHandler {
   void change(std::uint32_t number, const vp::WaveValue& value) override {
     Net& net = nets_[number];
     if (net.dropped) return;
-    const bool is_event = file_.variable(variable_of_[place(net)]).is_event;
+    const bool is_event = is_event_of(net);
+    if (is_event && now_ps_ < options_.from_ps) return;  // it is over when the window begins
     if (!is_event && net.last && net.kind == value.kind && *net.last == value.text) return;
     net.last = std::string(value.text);
     net.kind = value.kind;
     if (begun_) keep(net, now_ps_);
   }
 
+  bool is_event_of(const Net& net) const {
+    return file_.variable(variable_of_[place(net)]).is_event;
+  }
   static std::size_t place(const Net& net) { return static_cast<std::size_t>(net.signal); }
 
   /// The values that are there at the window's start come first.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <system_error>
 
 #include "vcd_index_maker.h"
@@ -103,10 +104,22 @@ std::vector<fs::path> kept_as(const fs::path& file) {
   return names;
 }
 
+/// Whether something other than an index has this name: it may be a link to any file.
+bool is_foreign(const fs::path& name) {
+  std::error_code failed;
+  const fs::file_status status = fs::symlink_status(name, failed);
+  if (!fs::exists(status)) return false;
+  if (!fs::is_regular_file(status)) return true;
+  std::ifstream file(name, std::ios::binary);
+  decltype(VcdIndex::Header::magic) magic{};
+  return !file.read(magic.data(), magic.size()) || magic != VcdIndex::Header().magic;
+}
+
 /// The first of the names that can be written; empty if none can.
 fs::path writable(const std::vector<fs::path>& names) {
   for (const fs::path& name : names) {
     std::error_code failed;
+    if (is_foreign(name)) continue;
     if (&name != &names.front()) fs::create_directories(name.parent_path(), failed);
     if (!failed && output_problem(name.string()) == 0) return name;
   }

@@ -9,6 +9,7 @@
 #include <fpga/synthesis/yosys.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/text.h>
 
 namespace platform::proof {
 
@@ -63,7 +64,11 @@ Search ask(const fs::path& folder, const std::string& commands, unsigned seconds
       bound(R"(No output asserted in (\d+) frames)");
   std::smatch m;
   if (std::regex_search(end.out, m, bound)) found.clocks = std::stoull(m[1]);
-  if (!std::regex_search(end.out, m, status)) return found;  // its time was up
+  if (!std::regex_search(end.out, m, status)) {
+    if (end.exit_code > 0)
+      throw vp::InputError("berkeley-abc failed: " + std::string(vp::trim(end.out)));
+    return found;  // a signal: its time was up
+  }
   found.proved = m[1] == "1";
   if (m[1] == "0" && fs::exists(witness)) found.inputs = witness_in(witness);
   return found;

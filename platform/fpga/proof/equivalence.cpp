@@ -66,6 +66,22 @@ struct Sides {
   std::vector<std::string> ours_alone;
 };
 
+/// Pictures that never end would make any claim about their ends true.
+void check_legal(const Parameters& parameters) {
+  constexpr std::int64_t most = 4096;  // counters of the miter have 16 bits, for several rows too
+  const auto value = [&](const char* name) {
+    const auto found = parameters.find(name);
+    return found == parameters.end() ? std::int64_t{1} : static_cast<std::int64_t>(found->second);
+  };
+  for (const char* name : {"WIDTH", "HEIGHT", "PIXELS_PER_CLOCK", "RADIUS"}) {
+    if (parameters.count(name) > 0 && (value(name) < 1 || value(name) > most))
+      throw vp::InputError(std::string("--parameter ") + name + ": a proof takes 1 to " +
+                           std::to_string(most));
+  }
+  if (value("WIDTH") % value("PIXELS_PER_CLOCK") != 0 && parameters.count("WIDTH") > 0)
+    throw vp::InputError("--parameter: WIDTH must be a multiple of PIXELS_PER_CLOCK");
+}
+
 /// Both with the same parameters, as far as theirs has them: what theirs lacks it is built for, and
 /// ours is taken as it is by default.
 Sides sides_of(const Claim& claim, const Contract& contract) {
@@ -78,7 +94,14 @@ Sides sides_of(const Claim& claim, const Contract& contract) {
     if (!has(name) && contract.structural.count(name) == 0)
       value = default_of(sides.ours, name).value_or(value);
   }
-  for (const auto& [name, value] : claim.parameters) ours[name] = value;
+  for (const auto& [name, value] : claim.parameters) {
+    const bool is_ours = synthesis::has_parameter(sides.ours, name);
+    if (is_ours) ours[name] = value;
+    if (sides.theirs && has(name)) sides.theirs->parameters[name] = value;
+    if (!is_ours && !(sides.theirs && has(name)))
+      throw vp::InputError("--parameter: neither side has the parameter '" + name + "'");
+  }
+  check_legal(ours);
   if (!sides.theirs) return sides;
   for (const auto& [name, value] : ours) {
     if (has(name))

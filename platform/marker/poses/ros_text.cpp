@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
+#include <marker/code_book.h>
 #include <marker/poses/pose_selection.h>
 
 namespace platform::poses {
@@ -73,16 +72,11 @@ std::string name_of(const FoundPose& found) {
   return found.is_board() ? found.name : found.family + ":" + found.name;
 }
 
-/// The cells of a family's code: of "5x5_50" and "apriltag_36h11" 25 and 36.
-unsigned cells_of(const std::string& family) {
-  const std::size_t by = family.find('x'), digit = family.find_first_of("0123456789");
-  const auto first = static_cast<unsigned>(std::atoi(family.c_str() + digit));
-  return by == digit + 1 ? first * first : first;
-}
-
+/// The share of the code's cells that were right.
 double score(const FoundPose& found) {
-  if (found.is_board() || !found.corrected) return 1;
-  return 1 - static_cast<double>(*found.corrected) / cells_of(found.family);
+  const marker::Dictionary* const dictionary = marker::find_dictionary(found.family.c_str());
+  if (found.is_board() || !found.corrected || !dictionary) return 1;
+  return 1 - static_cast<double>(*found.corrected) / (dictionary->cells * dictionary->cells);
 }
 
 std::string detection(const PoseFrame& frame, const FoundPose& found, const Pose& middle,
@@ -136,9 +130,14 @@ std::string ros_transforms(const std::vector<PoseFrame>& frames, const TextOptio
 }
 
 std::string ros_detections(const std::vector<PoseFrame>& frames, const TextOptions& options,
-                           Warnings&) {
+                           Warnings& warnings) {
   std::string text;
   for (const PoseFrame& frame : frames) {
+    if (!frame.taken_us) {
+      warnings.push_back("frame " + std::to_string(frame.index) +
+                         " is left out: it does not say when its image was taken");
+      continue;
+    }
     std::string detections;
     for (const FoundPose& found : found_in(frame, options)) {
       if (found.pose)

@@ -171,10 +171,8 @@ void XSpiPs_InterruptHandler(XSpiPs* InstancePtr) {
     return tell(InstancePtr, XST_SPI_MODE_FAULT, under_way);
   }
   if ((events & (XSPIPS_IXR_RXOVR_MASK | XSPIPS_IXR_TXUF_MASK)) != 0) finish(InstancePtr);
-  if ((events & XSPIPS_IXR_RXOVR_MASK) != 0)
-    tell(InstancePtr, XST_SPI_RECEIVE_OVERRUN, under_way);
-  if ((events & XSPIPS_IXR_TXUF_MASK) != 0)
-    tell(InstancePtr, XST_SPI_TRANSMIT_UNDERRUN, under_way);
+  if ((events & XSPIPS_IXR_RXOVR_MASK) != 0) tell(InstancePtr, XST_SPI_RECEIVE_OVERRUN, under_way);
+  if ((events & XSPIPS_IXR_TXUF_MASK) != 0) tell(InstancePtr, XST_SPI_TRANSMIT_UNDERRUN, under_way);
   if (!InstancePtr->IsBusy) return;
   take_back(InstancePtr);
   if (InstancePtr->RequestedBytes > 0) return fill(InstancePtr);
