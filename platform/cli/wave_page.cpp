@@ -4,6 +4,7 @@
 #include <result/page/report_page.h>
 #include <trace/recording.h>
 #include <trace/tools.h>
+#include <trace/transactions/interfaces.h>
 #include <trace/transactions/lanes.h>
 #include <trace/transactions/transactions.h>
 #include <vp/error.h>
@@ -101,7 +102,8 @@ class LaneColumns {
 };
 
 /// The transactions of the buses, if the trace has any, and how many there is no room for.
-std::string lanes_json(const TraceCommandOptions& options, const Recording& window) {
+std::string lanes_json(const TraceCommandOptions& options, const Recording& window,
+                       std::ostream& err) {
   const trace::TransactionsOptions asked;
   std::optional<trace::Survey> survey;
   std::error_code ignored;
@@ -109,9 +111,11 @@ std::string lanes_json(const TraceCommandOptions& options, const Recording& wind
     return "[]";  // it is read twice more
   try {
     trace::TraceFile file = opened(options);
+    if (trace::find_interfaces(file).interfaces.empty()) return "[]";  // signals are all there is
     survey = trace::survey_transactions(file, asked);
-  } catch (const vp::InputError&) {
-    return "[]";  // no bus: signals are all there is
+  } catch (const vp::InputError& error) {
+    err << "markervp: warning: the page has no transactions: " << error.what() << std::endl;
+    return "[]";
   }
   trace::TraceFile file = opened(options);
   LaneColumns columns(*survey, window);
@@ -137,23 +141,27 @@ std::string waves_json(const TraceCommandOptions& options, std::ostream& err) {
       ",\"leftOut\":" + std::to_string(found.left_out) + ",\"signals\":[";
   for (std::size_t i = 0; i < found.signals.size(); ++i)
     text += (i == 0 ? "" : ",") + signal_json(found.signals[i]);
-  text += "],\"lanes\":" + (options.signals.empty() ? lanes_json(options, found) : "[]") + "}";
+  text += "],\"lanes\":" + (options.signals.empty() ? lanes_json(options, found, err) : "[]") + "}";
   warn_of(file, err);
   return text;
 }
 
 std::string waves_of_run(const std::string& file) {
-  constexpr std::uint64_t largest = 256 << 20;  // bytes: a second of reading
+  // In bytes, a second of reading; an FST is some 30 times smaller than its VCD.
+  constexpr std::uint64_t largest_vcd = 256 << 20, largest_fst = 16 << 20;
+  const bool is_fst = std::filesystem::path(file).extension() == ".fst";
   std::error_code failed;
   const auto size = std::filesystem::file_size(file, failed);
-  if (failed || size > largest) return "{\"tooLarge\":" + trace::json_text(file) + "}";
+  if (failed) return "{}";  // a pipe: its reader has the trace
+  if (size > (is_fst ? largest_fst : largest_vcd))
+    return "{\"tooLarge\":" + trace::json_text(file) + "}";
   TraceCommandOptions options;
   options.file = file;
   std::ostringstream ignored;
   try {
     return waves_json(options, ignored);
-  } catch (const vp::InputError&) {
-    return "{}";  // nothing was recorded
+  } catch (const vp::InputError& error) {
+    return "{\"problem\":" + trace::json_text(error.what()) + "}";
   }
 }
 

@@ -12,8 +12,8 @@ namespace platform::cli {
 /// vp::InputError.
 std::string waves_json(const TraceCommandOptions& options, std::ostream& err);
 
-/// The same of the trace that a run wrote; of one that is no file, or too large for every page, it
-/// says so only.
+/// The same of the trace that a run wrote. Of one that is too large for every page, or that cannot
+/// be read, it says so only (`tooLarge`, `problem`); of a pipe it is empty.
 std::string waves_of_run(const std::string& file);
 
 }  // namespace platform::cli

@@ -76,8 +76,13 @@ vp::Router& BlockDesign::way_of(const End& master, const std::vector<std::string
   Placed& part = placed(master.part);
   const auto port = part.masters.find(master.port);
   if (port == part.masters.end()) {
-    // A master in a stub asks for nothing, so nothing need lead from it.
-    if (part.any_output) return *wanted;
+    // A master in a stub asks for nothing: what it is wired to is tied, once.
+    if (part.any_output) {
+      const std::string name = master.part + "_" + lower(master.port) + "_tied";
+      tied_masters_.emplace_back(name.c_str()).socket.bind(wanted->socket);
+      first = wanted;
+      return *wanted;
+    }
     std::vector<std::string> names;
     for (const auto& [name, known] : part.masters) names.push_back(name);
     refuse(master, "is no master that the platform models", names);

@@ -13,6 +13,7 @@
 #include <chip/system/unit_source.h>
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
+#include <vp/mm_link.h>
 #include <vp/parameter.h>
 #include <vp/router.h>
 #include <vp/signal.h>
@@ -92,7 +93,8 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   std::deque<vp::AxiStream> streams_;
   std::deque<vp::StreamSource> silent_;
   std::deque<vp::StreamSink> blocked_;
-  std::deque<vp::Router> direct_;  ///< of masters that meet no interconnect
+  std::deque<vp::Router> direct_;        ///< of masters that meet no interconnect
+  std::deque<vp::MmLink> tied_masters_;  ///< in the place of masters in stubs
   std::map<std::string, vp::Router*> direct_of_;
   std::map<std::string, vp::Router*> first_of_;      ///< where the way of a master begins
   std::map<std::string, xilinx::MemoryPath> paths_;  ///< by the port at the end

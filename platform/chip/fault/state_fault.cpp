@@ -108,7 +108,7 @@ void plan_flip(Injector& injector, Injection& injection) {
   if (auto* memory = dynamic_cast<xilinx::Bram*>(object))
     return plan_flip_in(injector, injection, *memory);
   if (injection.fault.has_address)
-    throw vp::InputError("'address' is a byte of a memory, and '" + where + "' is none");
+    throw vp::InputError("'address' is a byte of a memory: leave it out for '" + where + "'");
   if (vp::Register* target = register_named(where))
     return plan_flip_of(injector, injection, *target);
   plan_flip_of(injector, injection,

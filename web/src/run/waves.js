@@ -25,6 +25,7 @@ export function waves(run) {
   const data = run.extras.waves;
   const section = (...children) => h("section", { id: "waves", "aria-labelledby": "waves-title" }, h("h2", { id: "waves-title" }, "Waves"), children);
   if (data?.tooLarge) return section(h("p", { class: "note" }, `The trace is too large for this page: markervp trace plot ${data.tooLarge} --window FROM:TO -o page.html shows a part.`));
+  if (data?.problem) return section(h("p", { class: "note" }, `No waves: ${data.problem}`));
   if (!data?.signals?.length) return null;
   const spans = (run.extras.timeline?.frames ?? []).map((frame) => ({ index: frame.index, name: `${run.unit} ${frame.index + 1}`, from: frame.start * psInUs, to: frame.end * psInUs }))
     .filter((frame) => frame.to > data.from && frame.from < data.to);
