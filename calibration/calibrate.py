@@ -8,6 +8,7 @@ llvm-mca's pipeline model and a cache model the time of an instruction. See docs
 import argparse
 import datetime
 import glob
+import hashlib
 import json
 import os
 import subprocess
@@ -81,10 +82,29 @@ INCLUDES = ["sw", "sw/hal/include", "sw/hal/compat/include", "vp/registers/inclu
 # As cmake/MarkervpEigen.cmake.
 EIGEN = ["-isystem", "/usr/include/eigen3", "-DEIGEN_DONT_VECTORIZE", "-DEIGEN_NO_DEBUG",
          "-DEIGEN_MPL2_ONLY"]
+CHIP = ["arm-linux-gnueabihf-g++", "-marm", "-mcpu=cortex-a9", "-mfpu=neon-vfpv3",
+        "-mfloat-abi=hard", "-static", "-DHAL_BARE_METAL", "-fno-exceptions", "-fno-rtti",
+        "-Wno-psabi"]
+LANGUAGE = ["-std=c++17", "-ffp-contract=off"]
 
 
 def run(command, **options):
     return subprocess.run(command, cwd=ROOT, check=True, **options)
+
+
+def measured_digest():
+    """Of all that the measurements follow from: the preprocessed kernels, these scripts, the tools."""
+    digest = hashlib.sha256()
+    for source in SOURCES:
+        digest.update(run(CHIP + LANGUAGE + ["-O2", "-E", "-P"] + ["-I" + i for i in INCLUDES] +
+                          EIGEN + [source], capture_output=True).stdout)
+    for own in sorted(glob.glob(os.path.join(ROOT, "calibration", "*.py"))) + [
+            os.path.join(ROOT, "calibration", "plugin", "count.c")]:
+        with open(own, "rb") as file:
+            digest.update(file.read())
+    for tool in ("g++", "arm-linux-gnueabihf-g++", "qemu-arm", "llvm-mca"):
+        digest.update(run([tool, "--version"], capture_output=True).stdout)
+    return digest.hexdigest()
 
 
 class Tools:
@@ -98,14 +118,11 @@ class Tools:
              self.plugin, "calibration/plugin/count.c"])
         self.driver = {"native": self.compile("native", ["g++", "-O2"])}
         for level in ("O0", "O2"):
-            self.driver[level] = self.compile(
-                level, ["arm-linux-gnueabihf-g++", "-" + level, "-marm", "-mcpu=cortex-a9",
-                        "-mfpu=neon-vfpv3", "-mfloat-abi=hard", "-static", "-DHAL_BARE_METAL",
-                        "-fno-exceptions", "-fno-rtti", "-Wno-psabi"])
+            self.driver[level] = self.compile(level, CHIP + ["-" + level])
 
     def compile(self, name, command):
         program = os.path.join(self.folder, "driver-" + name)
-        run(command + ["-std=c++17", "-ffp-contract=off", "-Wall", "-Wextra", "-o", program] +
+        run(command + LANGUAGE + ["-Wall", "-Wextra", "-o", program] +
             ["-I" + i for i in INCLUDES] + EIGEN + SOURCES)
         return program
 
@@ -229,15 +246,30 @@ def make_table(tools, level, scenes, images):
         "origin": "scripts/calibrate: instructions counted in code compiled for a Cortex-A9, "
                   "cycles by llvm-mca and a cache model; nothing fitted to the thesis",
         "date": datetime.date.today().isoformat(),
+        "measured_digest": measured_digest(),
         "memory": {"l2_hit_cycles": L2_HIT_CYCLES, "ddr_ns": DDR_NS, "source": "assumed"},
         "kernels": kernels,
     }, good
 
 
+def read_table(path):
+    with open(path, encoding="ascii") as file:
+        return json.load(file)
+
+
+def stamp(path):
+    table = read_table(path)
+    members = [(name, value) for name, value in table.items() if name != "measured_digest"]
+    at = [name for name, _ in members].index("date") + 1
+    members.insert(at, ("measured_digest", measured_digest()))
+    with open(path, "w", encoding="ascii") as file:
+        json.dump(dict(members), file, indent=2)
+        file.write("\n")
+
+
 def differences(table, path):
     """Units whose instructions are not those of the table in the file."""
-    with open(path, encoding="ascii") as file:
-        known = json.load(file)["kernels"]
+    known = read_table(path)["kernels"]
     return [unit for kernel, entry in table["kernels"].items()
             for unit, cost in entry["units"].items()
             if abs(cost["instructions"] - known[kernel]["units"][unit]["instructions"]) >
@@ -252,18 +284,29 @@ def main():
     parser.add_argument("--output", default=os.path.join(ROOT, "data", "profiles"),
                         help="folder of the tables")
     parser.add_argument("--check", action="store_true",
-                        help="write nothing; fail if the tables are not those of the sources")
+                        help="write nothing; fail if the tables are not those of the sources, "
+                        "which are measured if they or the tools changed since")
+    parser.add_argument("--anew", action="store_true", help="with --check: measure in any case")
+    parser.add_argument("--stamp", action="store_true",
+                        help="with --check: note in tables that hold what they were compared with, "
+                        "so that the next check need not measure")
     parser.add_argument("--markervp", help="executable that runs the thesis' tests, to fit the "
                         "profile `thesis`; without it only the cost tables are made")
     arguments = parser.parse_args()
+    tables = {level: os.path.join(arguments.output, "a9-%s.json" % level) for level in ("O0", "O2")}
+    if arguments.check and not arguments.anew:
+        known = {read_table(path).get("measured_digest") for path in tables.values()}
+        if known == {measured_digest()}:
+            print("calibrate: the kernels, these scripts and the tools are those of the tables")
+            return
+        print("calibrate: kernels, scripts or tools changed since the tables were made: measuring")
     tools = Tools(os.path.abspath(arguments.build))
     all_good, stale = True, []
     # What memory costs is not compared: one image shows that kernels compute the same with cold caches.
     images = 1 if arguments.check else 2
-    for level in ("O0", "O2"):
+    for level, path in tables.items():
         table, good = make_table(tools, level, arguments.scenes, images)
         all_good = all_good and good
-        path = os.path.join(arguments.output, "a9-%s.json" % level)
         if arguments.check:
             stale += ["%s -%s" % (unit, level) for unit in differences(table, path)]
             continue
@@ -275,6 +318,9 @@ def main():
                  LIMIT_PERCENT)
     if stale:
         sys.exit("calibrate: the kernels changed, run scripts/calibrate: " + ", ".join(stale))
+    if arguments.stamp:
+        for path in tables.values():
+            stamp(path)
     if arguments.markervp and not arguments.check:
         fit_thesis.make_profile(arguments.markervp, arguments.output,
                                 os.path.join(ROOT, "data", "published.csv"))

@@ -263,8 +263,8 @@ void check_optimisation(const ProfileFile& file, std::optional<Optimisation> opt
 CostProfile read_cost_table(const ProfileFile& file, std::optional<Optimisation> optimisation) {
   const Json& root = file.root();
   file.only(root,
-            {"version", "profile", "optimisation", "origin", "date", "kernels", "other_units",
-             "memory", "code_scale"},
+            {"version", "profile", "optimisation", "origin", "date", "measured_digest", "kernels",
+             "other_units", "memory", "code_scale"},
             "the profile");
   check_optimisation(file, optimisation);
   CostProfile profile{ps::CostTable(file.text(root, "profile", "the profile")),

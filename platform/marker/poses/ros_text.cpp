@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <marker/code_book.h>
+#include <cstdlib>
+
 #include <marker/poses/pose_selection.h>
 
 namespace platform::poses {
@@ -72,11 +73,19 @@ std::string name_of(const FoundPose& found) {
   return found.is_board() ? found.name : found.family + ":" + found.name;
 }
 
+/// The cells of a family's code: of "5x5_50" and "apriltag_36h11" 25 and 36; "aruco_original" has
+/// no number in its name, and 5 x 5.
+unsigned cells_of(const std::string& family) {
+  const std::size_t by = family.find('x'), digit = family.find_first_of("0123456789");
+  if (digit == std::string::npos) return 25;
+  const auto first = static_cast<unsigned>(std::atoi(family.c_str() + digit));
+  return by == digit + 1 ? first * first : first;
+}
+
 /// The share of the code's cells that were right.
 double score(const FoundPose& found) {
-  const marker::Dictionary* const dictionary = marker::find_dictionary(found.family.c_str());
-  if (found.is_board() || !found.corrected || !dictionary) return 1;
-  return 1 - static_cast<double>(*found.corrected) / (dictionary->cells * dictionary->cells);
+  if (found.is_board() || !found.corrected) return 1;
+  return 1 - static_cast<double>(*found.corrected) / cells_of(found.family);
 }
 
 std::string detection(const PoseFrame& frame, const FoundPose& found, const Pose& middle,

@@ -10,6 +10,7 @@
 
 #include <chip/system/design.h>
 #include <marker/designs/marker/blob_figure.h>
+#include <marker/scene/pose.h>
 #include <pl/feature_extraction/feature_extraction.h>
 #include <ps/cpu/cpu.h>
 #include <trace/vocabulary.h>

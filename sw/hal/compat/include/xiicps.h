@@ -72,8 +72,8 @@ s32 XIicPs_SetOptions(XIicPs* InstancePtr, u32 Options);
 s32 XIicPs_ClearOptions(XIicPs* InstancePtr, u32 Options);
 u32 XIicPs_GetOptions(XIicPs* InstancePtr);
 /** The clock nearest to FsclHz, which may be above it. The controller is not asked for more than
- * 384.6 kHz, nor for 90 to 100 kHz: that becomes 90 kHz. XST_FAILURE if FsclHz is more than the input
- * clock / 22, XST_DEVICE_IS_STARTED during a transfer. */
+ * 384.6 kHz, nor for 90 to 100 kHz: that becomes 90 kHz. XST_FAILURE if FsclHz is more than the
+ * input clock / 22, XST_DEVICE_IS_STARTED during a transfer. */
 s32 XIicPs_SetSClk(XIicPs* InstancePtr, u32 FsclHz);
 u32 XIicPs_GetSClk(XIicPs* InstancePtr);
 

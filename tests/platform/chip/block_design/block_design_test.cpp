@@ -141,6 +141,22 @@ BOOST_AUTO_TEST_CASE(masters_in_stubs_need_no_way) {
     if (device.name == "axi_gpio_0") BOOST_TEST(device.base == 0x4120'0000u);
 }
 
+// The bus of such a processor is there all the same, with its memory.
+BOOST_AUTO_TEST_CASE(a_bus_whose_only_master_is_a_stub_is_built) {
+  std::string text = replaced(small_design(), "parts:\n",
+                              "parts:\n  soft:\n    ip: xilinx.com:ip:microblaze:11.0\n"
+                              "  soft_bus:\n    ip: xilinx.com:ip:axi_interconnect:2.1\n"
+                              "    pins: {ACLK: ps.FCLK_CLK0}\n"
+                              "    buses: {S00_AXI: soft.M_AXI_DP}\n"
+                              "  soft_memory:\n    ip: xilinx.com:ip:axi_bram_ctrl:4.1\n"
+                              "    pins: {s_axi_aclk: ps.FCLK_CLK0}\n"
+                              "    buses: {S_AXI: soft_bus.M00_AXI}\n");
+  text = replaced(text, "addresses:\n",
+                  "addresses:\n  soft.M_AXI_DP:\n    soft_memory.S_AXI: [0x0, 8 KiB]\n");
+  Built chip(text);
+  BOOST_CHECK_NO_THROW(sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US)));
+}
+
 BOOST_AUTO_TEST_CASE(stubs_and_memories_have_the_names_of_their_drivers) {
   std::string text = replaced(small_design(), "parts:\n",
                               "parts:\n  video:\n    ip: xilinx.com:ip:axi_vdma:6.3\n"

@@ -120,9 +120,20 @@ BOOST_AUTO_TEST_CASE(a_detection_says_how_sure_it_is_and_where_its_middle_is) {
              out);
   BOOST_TEST(
       out.find("    center:\n      position:\n        x: 0.600000000\n") != std::string::npos, out);
+  const std::vector<std::pair<const char*, const char*>> scores = {
+      {"aruco_original", "0.960000"}, {"aruco_mip_36h12", "0.972222"}, {"4x4_1000", "0.937500"}};
+  for (const auto& [family, score] : scores) {
+    result["configuration"]["sw.dictionary"] = family;
+    BOOST_TEST(poses({"--format", "detections"}) == 0, err);
+    BOOST_TEST(out.find(std::string("      score: ") + score + "\n") != std::string::npos, out);
+  }
   markers().clear();
   BOOST_TEST(poses({"--format", "detections"}) == 0, err);
   BOOST_TEST(out.find("detections: []\n---\n") != std::string::npos, out);
+  result["frames"][0].erase("taken_us");
+  BOOST_TEST(poses({"--format", "detections"}) == 0, err);
+  BOOST_TEST(out.empty());
+  BOOST_TEST(err.find("frame 0 is left out") != std::string::npos, err);
 }
 
 BOOST_AUTO_TEST_CASE(a_pose_has_its_covariance_translation_first) {
