@@ -158,6 +158,9 @@ BOOST_AUTO_TEST_CASE(a_stimulus_that_cannot_be_played_is_refused) {
   BOOST_TEST(contains(refusal("ena rst\n"), "no clock follows the names"));
   BOOST_TEST(contains(refusal("\n"), "line 1: give the names"));
   BOOST_TEST(contains(refusal("enable\n1\n"), "'enable' of corner_detection is no input"));
+  BOOST_TEST(contains(refusal("ena rst\n1 -1\n"), "line 2: numbers have no sign"));
+  BOOST_TEST(contains(refusal("ena ena\n1 1\n"), "line 1: each input has a name of its own"));
+  BOOST_TEST(contains(refusal("pixel\nff\n100\n"), "line 3: 'pixel' has 8 bits"));
   BOOST_TEST(contains(refusal("ena\n1\n", {"noise.pgm"}), "leave them out"));
 }
 

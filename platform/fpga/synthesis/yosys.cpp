@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include <host/document.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/text.h>

@@ -112,7 +112,6 @@ class Surveyor final : public Replay::Listener {
  public:
   Surveyor(TraceFile& file, FoundInterfaces found, const StatisticsOptions& options)
       : file_(file),
-        options_(options),
         found_(std::move(found)),
         replay_(file),
         clocks_(replay_, file, options) {
@@ -150,7 +149,6 @@ class Surveyor final : public Replay::Listener {
   }
 
   TraceFile& file_;
-  const StatisticsOptions& options_;
   FoundInterfaces found_;
   Replay replay_;
   ClockSet clocks_;

@@ -165,6 +165,25 @@ BOOST_AUTO_TEST_CASE(it_lies_in_the_cache_if_it_cannot_lie_beside_the_trace) {
   BOOST_TEST(without.values == found.values, boost::test_tools::per_element());
 }
 
+// Else an archive with a trace and a link could replace any file of the user's.
+BOOST_AUTO_TEST_CASE(a_file_that_is_no_index_and_a_link_stay_as_they_are) {
+  const File file(large(7));
+  ::setenv("XDG_CACHE_HOME", file.folder.path().c_str(), 1);
+  const std::string own = file.folder / "own.txt";
+  kit::write_file(own, "mine");
+  std::filesystem::create_symlink(own, file.name + ".index");
+  Found found = entered(file.name, 60'000'000);
+  BOOST_TEST(mentions(found.warnings, file.folder / "markervp"));
+  BOOST_TEST(kit::read_file(own) == "mine");
+  std::filesystem::remove(file.name + ".index");
+  std::filesystem::remove_all(file.folder / "markervp");
+  kit::write_file(file.name + ".index", "my notes on this trace");
+  found = entered(file.name, 60'000'000);
+  ::unsetenv("XDG_CACHE_HOME");
+  BOOST_TEST(mentions(found.warnings, file.folder / "markervp"));
+  BOOST_TEST(kit::read_file(file.name + ".index") == "my notes on this trace");
+}
+
 BOOST_AUTO_TEST_CASE(what_is_odd_is_known_of_the_whole_file) {
   const File file(large(7) + "#999999999\nbw n1;\n");
   BOOST_TEST(mentions(entered(file.name, 60'000'000).warnings, "begin with a letter"));
