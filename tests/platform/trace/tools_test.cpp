@@ -256,10 +256,10 @@ BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
       "FFFFFFFF ?dark red?end of frame\n");
   BOOST_TEST(system.find("^1 " + (folder / "feature.flt") +
                          "\npl.corner_detection.corner_data[31:0]\n") != std::string::npos);
-  const std::vector<std::string> expected = {
-      "corner_detection.gtkw", "cpu.gtkw",   "feature.flt", "function.flt", "gic.gtkw",
-      "interrupt.flt",         "system.gtkw"};
-  BOOST_TEST((folder.entries() == expected));
+  const std::vector<std::string> expected = {"corner_detection.gtkw", "cpu.gtkw",   "feature.flt",
+                                             "function.flt",          "gic.gtkw",   "interrupt.flt",
+                                             "system.gtkw",           "system.sucl"};
+  BOOST_TEST(folder.entries() == expected, boost::test_tools::per_element());
   BOOST_TEST(complaint([&] {
                TraceFile again(waves.file);
                write_save_files(again, platform::marker_words(), "/nowhere");
