@@ -111,10 +111,7 @@ struct Candidate {
 class Surveyor final : public Replay::Listener {
  public:
   Surveyor(TraceFile& file, FoundInterfaces found, const StatisticsOptions& options)
-      : file_(file),
-        found_(std::move(found)),
-        replay_(file),
-        clocks_(replay_, file, options) {
+      : file_(file), found_(std::move(found)), replay_(file), clocks_(replay_, file, options) {
     replay_.keep_texts();
     find_resets();
     for (std::size_t i = 0; i < found_.interfaces.size(); ++i) follow(i);
