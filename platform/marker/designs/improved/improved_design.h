@@ -12,6 +12,7 @@
 #include <marker/designs/improved/improved_logic.h>
 #include <marker/designs/marker/blob_figure.h>
 #include <marker/detection_result.h>
+#include <marker/scene/pose.h>
 #include <trace/vocabulary.h>
 #include <vp/clock_scheduler.h>
 
