@@ -6,6 +6,7 @@
 
 #include <host/process.h>
 #include <result/console.h>
+#include <result/members.h>
 #include <result/page/report_page.h>
 #include <result/table.h>
 #include <vp/text.h>
