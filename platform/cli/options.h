@@ -149,7 +149,7 @@ struct DesignsOptions {
 struct MetricsOptions {
   std::string part;                   ///< of their names; empty: all
   std::optional<std::string> run;     ///< whose values are shown: a folder, or a result.json
-  std::optional<std::string> design;  ///< whose own figures are listed, too
+  std::optional<std::string> design;  ///< its own figures are listed as well
   bool json = false;
   bool markdown = false;
 };

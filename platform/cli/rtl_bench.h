@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <cli/rtl_recorded.h>
+#include <cli/rtl_stimuli.h>
 #include <pl/common/geometry.h>
 #include <vp/parameter.h>
 

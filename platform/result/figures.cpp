@@ -334,7 +334,7 @@ std::string metric_markdown() {
   std::string text =
       "# Figures\n\n<!-- Made by `markervp metrics --markdown`. -->\n\n"
       "Every number of a run has a path in `result.json`, by which metrics of sweeps, `compare`, "
-      "CSV, SQLite and Python name it, too.\n"
+      "CSV, SQLite and Python name it.\n"
       "`*` is any name. Figures of frames are named with `.mean` or `.max` at their end, over all "
       "frames. What a design finds of\nits units has the unit that the design declares "
       "([designs.md](designs.md#what-it-delivers)).\n";

@@ -1,7 +1,7 @@
 """The examples: examples_test.py MARKERVP EXAMPLES BUILT [--only NAME] [--update]
 
 Each runs by its run.sh in a copy of its folder, and must print what its README.md shows in its block ```output. --update writes
-that instead. BUILT has the folders of what the examples compile; what needs Verilator is built by install_test, which asks for
+that instead. BUILT has the folders of what the examples compile; what needs Verilator is built by install_rtl_test, which asks for
 that one only.
 """
 import os

@@ -22,8 +22,8 @@ namespace vp {
 /// anew.
 class VcdIndex {
  public:
-  /// The index of `file`, made if there is none: that reads the whole VCD. Null for what cannot be
-  /// entered (gzip, a pipe) and for a file that has a fault somewhere. `notes` gets what a user
+  /// The index of `file`, made on the first call, which reads the whole VCD. Null for what cannot
+  /// be entered (gzip, a pipe) and for a file that has a fault somewhere. `notes` gets what a user
   /// should know, and what is odd about the VCD.
   static std::unique_ptr<VcdIndex> of(const std::filesystem::path& file, const WaveOptions& options,
                                       WaveNotes& notes);

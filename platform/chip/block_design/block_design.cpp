@@ -152,9 +152,8 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
 vp::Clock* BlockDesign::clock_of(const End& source) {
   if (source.part == "external") return external_.at(source.port)->clk.get();
   const PlacedPart& part = *design_.part(source.part);
-  const bool is_stub = part.as == "stub" || (part.rtl.empty() && !rule_for(part.vlnv));
   // Known before it is placed: stubs may drive each other in a ring.
-  if (is_stub && part.clocks.count(source.port) == 0) return nullptr;
+  if (part.is_stub() && part.clocks.count(source.port) == 0) return nullptr;
   Placed& driver = placed(source.part);
   const auto found = driver.clocks.find(source.port);
   return found == driver.clocks.end() ? nullptr : found->second;
@@ -200,8 +199,7 @@ void BlockDesign::join_pins(const PlacedPart& part) {
 
 bool BlockDesign::is_bus(const std::string& name) const {
   const PlacedPart* part = design_.part(name);
-  const bool by_rule = part && part->as != "stub" && part->rtl.empty();
-  const IpRule* rule = by_rule ? rule_for(part->vlnv) : nullptr;
+  const IpRule* rule = part ? part->rule() : nullptr;
   return rule && rule->kind == Kind::bus;
 }
 

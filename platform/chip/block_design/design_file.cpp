@@ -153,8 +153,8 @@ class DesignReader : vp::YamlReader {
 
   /// Of an IP on the shelf each parameter must be known, and its value modelled.
   void check_parameters(const YAML::Node& map, const PlacedPart& part) const {
-    const IpRule* rule = rule_for(part.vlnv);
-    if (!rule || part.as == "stub" || !part.rtl.empty() || !map.IsMap()) return;
+    const IpRule* rule = part.rule();
+    if (!rule || !map.IsMap()) return;
     for (const auto& entry : map) {
       const std::string key = entry.first.Scalar(), value = entry.second.Scalar();
       const ParameterRule* known = find_parameter(*rule, key);
@@ -280,6 +280,10 @@ class DesignReader : vp::YamlReader {
 };
 
 }  // namespace
+
+const IpRule* PlacedPart::rule() const {
+  return as == "stub" || !rtl.empty() ? nullptr : rule_for(vlnv);
+}
 
 const PlacedPart* DesignFile::part(const std::string& wanted) const {
   const auto found = part_index.find(wanted);

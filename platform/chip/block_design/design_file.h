@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <chip/block_design/shelf.h>
+
 namespace platform::block_design {
 
 /// An end of a wire or a bus: "axi_dma_0.M_AXIS_MM2S"; `part` is "external" for a pin of the chip.
@@ -29,6 +31,10 @@ struct PlacedPart {
   std::map<std::string, std::uint64_t> clocks;  ///< of a stub: frequency of an output, Hz
   std::map<std::string, End> pins;              ///< input: what drives it
   std::map<std::string, End> buses;             ///< slave: its master
+
+  /// The rule of the shelf that it is placed by; null for a stub and for RTL.
+  const IpRule* rule() const;
+  bool is_stub() const { return as == "stub" || (rtl.empty() && !rule()); }
 };
 
 /// Where a master sees a slave.

@@ -38,7 +38,7 @@ class Drawing {
   explicit Drawing(const DesignFile& design) : design_(design) {
     for (const PlacedPart& part : design.parts) {
       const IpRule* rule = rule_for(part.vlnv);
-      if (part.as == "stub" || (!rule && part.rtl.empty())) stubs_.insert(part.name);
+      if (part.is_stub()) stubs_.insert(part.name);
       if (rule && rule->ip == "clk_wiz") managers_.insert(part.name);
     }
     for (const AddressSegment& segment : design.addresses) {

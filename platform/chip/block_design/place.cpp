@@ -330,10 +330,9 @@ Placed place_stub(const Placement& at) {
 }  // namespace
 
 Placed place_part(const Placement& at) {
-  const IpRule* rule = rule_for(at.part.vlnv);
-  if (at.part.as == "stub") return place_stub(at);
+  if (at.part.is_stub()) return place_stub(at);
   if (!at.part.rtl.empty()) return place_rtl(at);
-  if (!rule) return place_stub(at);
+  const IpRule* rule = at.part.rule();
   if (rule->kind == Kind::left_out) return {};
   if (rule->kind == Kind::bus) return place_bus(at);
   if (rule->kind == Kind::wiring) return place_wiring(at);

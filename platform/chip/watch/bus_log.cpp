@@ -86,12 +86,6 @@ bool number(const std::string& text, std::uint64_t& value) {
   return !text.empty() && text[0] >= '0' && text[0] <= '9' && *end == '\0' && errno == 0;
 }
 
-/// As AXI calls it.
-const char* answer_of(const tlm::tlm_generic_payload& payload) {
-  if (payload.is_response_ok()) return "OK";
-  return payload.get_response_status() == tlm::TLM_ADDRESS_ERROR_RESPONSE ? "DECERR" : "SLVERR";
-}
-
 /// What was read or written; none of a burst, and of a read that failed.
 std::optional<std::uint32_t> word_of(const tlm::tlm_generic_payload& payload) {
   std::uint32_t word = 0;
@@ -101,18 +95,23 @@ std::optional<std::uint32_t> word_of(const tlm::tlm_generic_payload& payload) {
   return word;
 }
 
-std::string value_of(const tlm::tlm_generic_payload& payload) {
-  if (const auto word = word_of(payload)) return vp::hex(*word);
-  const unsigned bytes = payload.get_data_length();
-  return bytes == sizeof(std::uint32_t) ? "-" : std::to_string(bytes) + " bytes";
+}  // namespace
+
+std::string BusAccess::value() const {
+  if (word) return vp::hex(*word);
+  const bool is_word = bytes == sizeof(std::uint32_t) && response != tlm::TLM_OK_RESPONSE;
+  return is_word ? "-" : std::to_string(bytes) + " bytes";
 }
 
-}  // namespace
+const char* BusAccess::answer() const {
+  if (response == tlm::TLM_OK_RESPONSE) return "OK";
+  return response == tlm::TLM_ADDRESS_ERROR_RESPONSE ? "DECERR" : "SLVERR";
+}
 
 std::string BusAccess::text(const DeviceNames& names) const {
   const std::string name = names.text(address);
   return vp::format_time(ps) + "  " + initiator + "  " + (read ? "read " : "write") + "  " +
-         vp::hex(address) + "  " + (name.empty() ? "-" : name) + "  " + value + "  " + answer;
+         vp::hex(address) + "  " + (name.empty() ? "-" : name) + "  " + value() + "  " + answer();
 }
 
 BusWatch::Observer::Observer(BusWatch& watch, vp::MmLink& link, std::string name, bool is_processor)
@@ -128,21 +127,19 @@ void BusWatch::Observer::after(vp::MmLink&, tlm::tlm_generic_payload& payload,
                                sc_core::sc_time& delay) {
   if (!watch_.wanted(payload.get_address(), payload.get_data_length())) return;
   watch_.note({start_ps_, name_, is_processor_, payload.is_read(), payload.get_address(),
-               value_of(payload), answer_of(payload), link_.name(),
-               watch_.zynq_.scheduler.now_ps() + vp::to_ps(delay), payload.get_data_length(),
-               word_of(payload)});
+               payload.get_data_length(), word_of(payload), payload.get_response_status(),
+               link_.name(), watch_.zynq_.scheduler.now_ps() + vp::to_ps(delay)});
 }
 
 void BusWatch::Observer::direct(vp::MmLink&, tlm::tlm_command command, std::uint64_t address,
                                 std::uint64_t bytes) {
   if (!watch_.wanted(address, bytes)) return;
   const std::uint64_t ps = watch_.zynq_.scheduler.now_ps();
-  watch_.note({ps, name_, is_processor_, command == tlm::TLM_READ_COMMAND, address,
-               std::to_string(bytes) + " bytes", "OK", link_.name(), ps, bytes, std::nullopt});
+  watch_.note({ps, name_, is_processor_, command == tlm::TLM_READ_COMMAND, address, bytes,
+               std::nullopt, tlm::TLM_OK_RESPONSE, link_.name(), ps});
 }
 
-BusWatch::BusWatch(Zynq& zynq, bool bursts_too)
-    : zynq_(zynq), bursts_too_(bursts_too), names_(hardware_map(zynq)) {
+BusWatch::BusWatch(Zynq& zynq) : zynq_(zynq), names_(hardware_map(zynq)) {
   const auto watch = [this](vp::MmLink& link, const char* name, bool is_processor) {
     observers_.push_back(std::make_unique<Observer>(*this, link, name, is_processor));
   };
@@ -199,7 +196,8 @@ void BusHistory::note(const BusAccess& access) {
   if (access.ps >= options_.before_ps || (options_.writes_only && access.read)) return;
   Entry* const last = entries_.empty() ? nullptr : &entries_.back();
   const bool same = last && last->last.initiator == access.initiator &&
-                    last->last.read == access.read && last->last.value == access.value;
+                    last->last.read == access.read && last->last.word == access.word &&
+                    last->last.bytes == access.bytes;
   // A poll reads thousands of times, and looking at the stack takes longer than all the rest.
   const bool polls = same && access.read;
   std::vector<std::uintptr_t> calls;

@@ -45,12 +45,16 @@ struct BusAccess {
   bool by_processor;
   bool read;
   std::uint64_t address;
-  std::string value;     ///< a burst has its size
-  std::string answer;    ///< as AXI calls it
+  std::uint64_t bytes;
+  std::optional<std::uint32_t> word;  ///< that was read or written; of a burst none
+  tlm::tlm_response_status response;
   const char* link;      ///< that it passed: "ps.cpu.m_axi"
   std::uint64_t end_ps;  ///< its answer is there; of a burst by direct access `ps`
-  std::uint64_t bytes;
-  std::optional<std::uint32_t> word;  ///< that was read or written, if it is one
+
+  /// The word, "-" of one that could not be read, or the size of a burst: "0x00000000", "64 bytes".
+  std::string value() const;
+  /// "OK", "SLVERR", "DECERR".
+  const char* answer() const;
 
   /// "320 ns  cpu  read  0x41200000  axi_gpio_0.GPIO_DATA  0x00000000  OK"
   std::string text(const DeviceNames& names) const;
@@ -69,8 +73,7 @@ class BusWatch {
   struct Range {
     std::uint64_t first, last;
   };
-  /// `bursts_too`: each burst of a DMA is a transaction, whose answer is seen.
-  explicit BusWatch(Zynq& zynq, bool bursts_too = false);
+  explicit BusWatch(Zynq& zynq);
 
   /// Only these; otherwise all.
   void watch_only(std::vector<Range> ranges) { ranges_ = std::move(ranges); }
@@ -86,7 +89,7 @@ class BusWatch {
     ~Observer() override { link_.remove_observer(*this); }
     Observer(const Observer&) = delete;
     Observer& operator=(const Observer&) = delete;
-    bool needs_transactions() const override { return is_processor_ || watch_.bursts_too_; }
+    bool needs_transactions() const override { return is_processor_; }
     void before(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) override;
     void after(vp::MmLink&, tlm::tlm_generic_payload&, sc_core::sc_time& delay) override;
     void direct(vp::MmLink&, tlm::tlm_command, std::uint64_t address, std::uint64_t bytes) override;
@@ -102,7 +105,6 @@ class BusWatch {
   bool wanted(std::uint64_t address, std::uint64_t bytes) const;
 
   Zynq& zynq_;
-  bool bursts_too_;
   DeviceNames names_;
   std::vector<Range> ranges_;
   std::vector<std::unique_ptr<Observer>> observers_;

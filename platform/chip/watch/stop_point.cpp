@@ -20,7 +20,7 @@ class StopPoint::Accesses : public BusWatch {
     for (const ps::Cpu* core : point_.zynq_.ps.cpus()) {
       if (access.initiator != core->basename()) continue;
       point_.count(" of " + point_.options_.address + ": " + (access.read ? "read " : "write ") +
-                       access.value + " " + access.answer,
+                       access.value() + " " + access.answer(),
                    *core);
     }
   }

@@ -14,7 +14,7 @@ constexpr std::size_t most_waiting = 4096;
 }  // namespace
 
 TransactionLog::TransactionLog(const std::string& file, Zynq& zynq)
-    : BusWatch(zynq, true),
+    : BusWatch(zynq),
       file_(file),
       json_([this](std::string_view text) { file_.write(text); }),
       lines_(zynq.ps.gic.irq_f2p.signal()) {
@@ -44,8 +44,8 @@ void TransactionLog::note(const BusAccess& access) {
   one.operation = access.read ? "read" : "write";
   one.address = access.address;
   one.bytes = access.bytes;
-  one.response = access.answer == "OK" ? "OKAY" : access.answer == "SLVERR" ? "SLVERR" : "DECERR";
-  if (access.word) {
+  one.response = access.response == tlm::TLM_OK_RESPONSE ? "OKAY" : access.answer();
+  if (access.by_processor && access.word) {
     one.beats = one.beats_done = 1;
     one.size = access.bytes;
     trace::add_word(one, *access.word);

@@ -46,7 +46,7 @@ struct Contract {
   std::vector<std::string> streams_in = {}, streams_out = {};  ///< prefixes of their pins: "m"
 };
 
-/// Throws vp::InputError that lists the IP if there is none of that name.
+/// Throws vp::InputError for an unknown IP, with those that have one.
 const Contract& contract_of(const std::string& ip);
 
 /// The same in words, a line each: what is assumed of the inputs, with these parameters.

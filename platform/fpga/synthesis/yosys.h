@@ -44,7 +44,7 @@ class YosysFolder {
   std::string reading() const;
   void copy_without_format_widths();
   void name_originals(std::string& text) const;
-  /// "file:line: " of the first line with both; "" if there is none.
+  /// "file:line: " of the first line with both; "" without one.
   std::string place_of(const std::string& word, const std::string& name) const;
 
   const Design& design_;

@@ -12,8 +12,7 @@ namespace platform {
 /// `light`: of all pixels, row by row.
 void hide_corner(const Scene& scene, std::vector<double>& light);
 
-/// The grey level, 0 to 1, that stands for this light, of which 1 is white: the inverse of the
-/// curve.
+/// The grey level, 0 to 1, that a camera of this curve gives for a light of 0 to 1 (white).
 double level_of(double light, const marker::LightTable& curve);
 
 /// What a baseline JPEG file of this quality, 1 to 100, loses of a grey image: the coefficients of

@@ -103,7 +103,7 @@ s32 failed(XIicPs* i2c, u32 events) {
   return events & XIICPS_IXR_ARB_LOST_MASK ? XST_IIC_ARB_LOST : XST_FAILURE;
 }
 
-/// What the handler of a program is told of failures: all of it at once.
+/// The failures of a transfer as one event of the program's handler.
 u32 events_of(u32 failed) {
   u32 told = 0;
   if (failed & XIICPS_IXR_ARB_LOST_MASK) told |= XIICPS_EVENT_ARB_LOST;

@@ -33,10 +33,8 @@ BOOST_AUTO_TEST_CASE(wrong_usage_is_one_line_with_the_nearest_match) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{},
        "a command is missing: run, history, debug, faults, designs, config, map, import, report, "
-       "devices, "
-       "clocks, power, rtl, trace, sweep, explore, metrics, pareto, sensitivity, compare, scenes, "
-       "validate, "
-       "compare-detectors or completion"},
+       "devices, clocks, power, rtl, trace, sweep, explore, metrics, pareto, sensitivity, compare, "
+       "scenes, poses, validate, compare-detectors or completion"},
       {{"rnu"}, "did you mean 'run'?"},
       {{"z1.0"}, "did you mean 'markervp run z1.0'?"},
       {{"--verison"}, "did you mean '--version'?"},

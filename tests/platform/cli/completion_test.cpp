@@ -48,9 +48,8 @@ BOOST_AUTO_TEST_CASE(bash_offers_commands_options_values_and_scenes) {
   BOOST_TEST(
       offered({"markervp", "\"\""}) ==
       "run history debug faults designs config map import report devices clocks power rtl trace "
-      "sweep "
-      "explore "
-      "metrics pareto sensitivity compare scenes validate compare-detectors completion --help "
+      "sweep explore metrics pareto sensitivity compare scenes poses validate compare-detectors "
+      "completion --help "
       "--version ");
   BOOST_TEST(offered({"markervp", "co"}) == "config compare compare-detectors completion ");
   BOOST_TEST(offered({"markervp", "run", "--trace-"}) ==

@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(it_lies_in_the_cache_if_it_cannot_lie_beside_the_trace) {
   const Found found = entered(file.name, 60'000'000);
   BOOST_TEST(mentions(found.warnings, file.folder / "markervp"));
   BOOST_TEST(entered(file.name, 60'000'000).warnings.empty());
-  // And where there is none, the trace is read from the front.
+  // Without a cache the trace is read from the front.
   std::filesystem::remove_all(file.folder / "markervp");
   kit::write_file(file.folder / "markervp", "");
   const Found without = entered(file.name, 60'000'000);

@@ -128,7 +128,7 @@ class WaveReader {
   std::unique_ptr<WaveNotes> notes_;
   std::unique_ptr<VcdReader> vcd_;  ///< one of both
   std::unique_ptr<FstReader> fst_;
-  std::unique_ptr<VcdIndex> index_;  ///< null: there is none
+  std::unique_ptr<VcdIndex> index_;  ///< null without one
   bool index_sought_ = false;
   std::optional<std::uint64_t> entry_;  ///< where the next read() enters a VCD
   std::unique_ptr<WaveJoiner> joiner_;  ///< null: no vector was declared bit by bit

@@ -59,7 +59,7 @@ int XTmrCtr_SelfTest(XTmrCtr* InstancePtr, u8 TmrCtrNumber);
 /** From the reset value on. */
 void XTmrCtr_Start(XTmrCtr* InstancePtr, u8 TmrCtrNumber);
 void XTmrCtr_Stop(XTmrCtr* InstancePtr, u8 TmrCtrNumber);
-/** Loads the reset value; the counter goes on, if it was counting. */
+/** Loads the reset value; a counter that counts keeps counting. */
 void XTmrCtr_Reset(XTmrCtr* InstancePtr, u8 TmrCtrNumber);
 u32 XTmrCtr_GetValue(XTmrCtr* InstancePtr, u8 TmrCtrNumber);
 void XTmrCtr_SetResetValue(XTmrCtr* InstancePtr, u8 TmrCtrNumber, u32 ResetValue);
