@@ -192,7 +192,9 @@ BOOST_AUTO_TEST_CASE(a_shot_of_a_campaign_can_be_had_again) {
   const std::size_t units = result()["frames"].size();
   BOOST_TEST_REQUIRE(campaign(text + "classes: [bus, register, signal, clock]\n").exit_code == 0);
   std::map<std::string, int> seen;
+  std::uint64_t silent = 0;
   for (const std::string& line : lines_of(kit::read_file(*this / "out/faults/faults.csv"))) {
+    silent += contains(line, ",hang,") && line.back() == ',';
     const std::size_t from = line.find("\"{"), to = line.find("}\"");
     if (from == std::string::npos) continue;
     const std::string outcome = contains(line, ",masked,") ? "masked"
@@ -206,6 +208,9 @@ BOOST_AUTO_TEST_CASE(a_shot_of_a_campaign_can_be_had_again) {
   }
   BOOST_TEST(seen["masked"] > 0);
   BOOST_TEST(seen["hang"] > 0);
+  BOOST_TEST(silent > 0);
+  const Json counts = Json::parse(kit::read_file(*this / "out/faults/faults.json"));
+  BOOST_TEST(counts["all"]["silent_hangs"] == silent);
 }
 
 BOOST_AUTO_TEST_CASE(a_campaign_that_cannot_be_is_refused) {

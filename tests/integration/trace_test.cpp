@@ -271,7 +271,7 @@ BOOST_AUTO_TEST_CASE(a_run_says_which_fidelity_a_trace_chose_and_what_tlm_does_n
       tlm.find("fidelity tlm does not play pl.sensor_input.pixel, .pixel_x, .pixel_y, "
                "pl.image_stream.*, pl.global_threshold.thresh_*, .binary_*, "
                "pl.clock_crossing.binary.*, pl.axi_threshold_bridge.thresh_seen, "
-               ".fifo_count, pl.binary_stream.*: --fidelity clocked does") != std::string::npos,
+               ".fifo_count, pl.binary_stream.*, pl.always: --fidelity clocked does") != std::string::npos,
       tlm);
   const std::set<std::string> clocked = moving(*this / "c.vcd"), frames = moving(*this / "t.vcd");
   std::set<std::string> still;

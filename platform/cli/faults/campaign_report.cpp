@@ -21,9 +21,11 @@ using Json = nlohmann::ordered_json;
 struct Counts {
   std::map<Outcome, std::uint64_t> by_outcome;
   std::uint64_t all = 0;
+  std::uint64_t silent_hangs = 0;  ///< no access failed, and no warning came
 
   void add(const Shot& shot) {
     ++by_outcome[shot.outcome];
+    if (shot.outcome == Outcome::hang && shot.sign.empty()) ++silent_hangs;
     ++all;
   }
   std::uint64_t of(Outcome outcome) const {
@@ -99,6 +101,7 @@ double us_of(std::uint64_t ps) {
 Json counts_json(const Counts& counts) {
   Json json{{"faults", counts.all}};
   for (const Outcome outcome : outcomes()) json[to_string(outcome)] = counts.of(outcome);
+  json["silent_hangs"] = counts.silent_hangs;
   for (const Outcome outcome : outcomes()) {
     const Interval interval = wilson(counts.of(outcome), counts.all);
     json["interval"][to_string(outcome)] = {result::rounded(interval.low, 6),
@@ -111,12 +114,6 @@ Json groups_json(const Groups& groups) {
   Json json = Json::object();
   for (const auto& [name, counts] : groups) json[name] = counts_json(counts);
   return json;
-}
-
-std::string csv_field(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : vp::visible(text)) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 /// The run with one fault, as a user types it.
@@ -187,10 +184,9 @@ std::string shots_csv(const std::vector<Shot>& shots) {
   std::string text = "number,class,module,at_us,outcome,times,fault,sign\n";
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const Shot& shot = shots[i];
-    text += std::to_string(i + 1) + "," + shot.of_class + "," + shot.module + "," +
-            vp::format_fixed(us_of(shot.at_ps), 6) + "," + to_string(shot.outcome) + "," +
-            std::to_string(shot.times) + "," + csv_field(shot.fault) + "," + csv_field(shot.sign) +
-            "\n";
+    text += result::csv_line({std::to_string(i + 1), shot.of_class, shot.module,
+                              vp::format_fixed(us_of(shot.at_ps), 6), to_string(shot.outcome),
+                              std::to_string(shot.times), shot.fault, vp::visible(shot.sign)});
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <host/process.h>
 #include <marker/detectors/peers.h>
 #include <result/console.h>
+#include <result/table.h>
 #include <vp/text.h>
 
 #include <algorithm>
@@ -210,13 +211,6 @@ std::string what_it_is_of(const Comparison& comparison) {
          comparison.dictionary;
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string csv_number(const std::optional<double>& value) {
   constexpr int places = 6;
   return value ? vp::format_fixed(*value, places) : "";
@@ -267,18 +261,20 @@ std::string markdown_text(const Comparison& comparison) {
 }
 
 std::string scores_csv(const Comparison& comparison) {
-  std::string text = "detector";
-  for (const Column& column : columns) text += fmt::format(",{}", column.csv);
+  std::vector<std::string> head{"detector"};
+  for (const Column& column : columns) head.emplace_back(column.csv);
+  std::string text = result::csv_line(head);
   for (const Detector& detector : comparison.detectors) {
     const Score scored = score(comparison, detector);
-    text += "\n" + csv_field(detector.name);
+    std::vector<std::string> row{detector.name};
     for (const Column& column : columns) {
       const std::optional<double> value = column.value(detector, scored);
-      text +=
-          "," + (column.decimals == 0 && value ? vp::format_fixed(*value, 0) : csv_number(value));
+      row.push_back(column.decimals == 0 && value ? vp::format_fixed(*value, 0)
+                                                  : csv_number(value));
     }
+    text += result::csv_line(row);
   }
-  return text + "\n";
+  return text;
 }
 
 std::string detections_csv(const Comparison& comparison) {
@@ -288,9 +284,9 @@ std::string detections_csv(const Comparison& comparison) {
       const Image& image = comparison.images[i];
       for (const Judgement& marker : judge(image.truth, detector.seen[i])) {
         text +=
-            fmt::format("{},{},{},{},{},{},{}\n", csv_field(detector.name), csv_field(image.name),
-                        marker.id, to_string(marker.verdict), csv_number(marker.corner_px),
-                        csv_number(marker.translation_mm), csv_number(marker.rotation_deg));
+            result::csv_line({detector.name, image.name, std::to_string(marker.id),
+                              to_string(marker.verdict), csv_number(marker.corner_px),
+                              csv_number(marker.translation_mm), csv_number(marker.rotation_deg)});
       }
     }
   }

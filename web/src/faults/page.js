@@ -23,7 +23,7 @@ function tile(data, outcome) {
 
 /** What came of the units against what was said of them. */
 function confusion({ all }) {
-  const rows = [["right, at the end at least", all.masked, all.recovered], ["wrong", all.unnoticed, all.reported], ["missing", 0, all.hang]].map(([units, silent, noticed]) => ({ units, silent, noticed }));
+  const rows = [["right, at the end at least", all.masked, all.recovered], ["wrong", all.unnoticed, all.reported], ["missing", all.silent_hangs, all.hang - all.silent_hangs]].map(([units, silent, noticed]) => ({ units, silent, noticed }));
   const number = (title, key) => ({ title, number: true, value: (r) => r[key], show: (v) => fixed(v, 0) });
   return dataTable({ caption: "Units of work against what was noticed", name: "confusion", sortable: false, rows, columns: [{ title: "Units are", head: true, value: (r) => r.units }, number("Not noticed", "silent"), number("Noticed", "noticed")] });
 }
@@ -57,7 +57,7 @@ function shotPanel() {
     const command = (label, text) => [h("p", { class: "note", style: { margin: "18px 0 6px" } }, label), h("pre", { tabindex: "0", "aria-label": label }, h("code", {}, text))];
     panel.replaceChildren(h("div", { class: "section-head" }, h("h2", {}, `Fault ${fixed(shot.number, 0)}: ${shot.outcome}`), h("div", { class: "tools" }, h("button", { type: "button", onclick: () => { panel.hidden = true; } }, "Close"))),
       h("p", {}, h("code", {}, shot.fault)), h("p", {}, shot.sign),
-      ...command("To have it again:", shot.again), ...command("And with its waveforms:", `${shot.again} --trace fault-${shot.number}.fst`));
+      ...command("Run it again:", shot.again), ...command("Run it again with its waveforms:", `${shot.again} --trace fault-${shot.number}.fst`));
     panel.focus({ preventScroll: true });
     panel.scrollIntoView({ block: "nearest" });
   };

@@ -79,7 +79,7 @@ trace::Vocabulary make() {
                 {"pl.fidelity.global_threshold", "pl.global_threshold.thresh_*, .binary_*"},
                 {"pl.fidelity.axi_threshold_bridge",
                  "pl.clock_crossing.binary.*, pl.axi_threshold_bridge.thresh_seen, .fifo_count, "
-                 "pl.binary_stream.*"}};
+                 "pl.binary_stream.*, pl.always"}};
   v.interrupts = {{"pl.axi_dma_0.mm2s_introut", marker_logic::addresses::dma_image_interrupt,
                    "DMA 0: image", "dark blue"},
                   {"pl.axi_dma_1.s2mm_introut", marker_logic::addresses::dma_binary_interrupt,
