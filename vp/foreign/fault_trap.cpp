@@ -273,6 +273,9 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
   FaultTrap* const trap = by_code ? active_ : objects_;
   const bool by_others = sent && info->si_pid != getpid();
   const auto give_back_now = [&] {
+#if !defined(__SANITIZE_ADDRESS__)  // whose report says more
+    if (objects_ && !by_code && !by_others) end_if_damaged();
+#endif
     give_back(signal);
     if (sent) raise(signal);
   };

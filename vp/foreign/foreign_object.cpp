@@ -290,6 +290,19 @@ const char* foreign_object_at(std::uintptr_t address) {
   return nullptr;
 }
 
+void end_if_damaged() {
+  if (!has_kept_objects()) return;
+  remove_part_files();
+  const auto say = [](const char* text) {
+    static_cast<void>(!::write(STDERR_FILENO, text, std::strlen(text)));
+  };
+  say("markervp: the platform's own code failed while ");
+  say(kept[0].name);
+  say(kept_count == 1 ? " is loaded" : " and others are loaded");
+  say(": it wrote where it must not, or this is a bug of markervp: run without it to see\n");
+  end_process(protocol_broken);
+}
+
 ObjectEnd::ObjectEnd(const Fault& fault) : ProtocolError(text_of(fault)), fault_(fault) {}
 
 void call_objects(const std::function<void()>& code, const CallLimit& limit) {

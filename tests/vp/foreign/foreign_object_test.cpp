@@ -2,9 +2,14 @@
 #include <vp/foreign_object.h>
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <boost/test/unit_test.hpp>
 #include <string>
+
+#include "temporary_files.h"
 
 namespace {
 
@@ -82,6 +87,34 @@ BOOST_AUTO_TEST_CASE(what_touches_an_object_is_told_how_it_stopped) {
   BOOST_TEST(vp::stopped_by([] { call("throw_an_error"); }) ==
              "it threw an exception: thrown by an object");
 }
+
+#if !defined(__SANITIZE_ADDRESS__)
+BOOST_AUTO_TEST_CASE(memory_that_an_object_damaged_ends_the_process_with_a_message) {
+  loaded();
+  const kit::TemporaryFolder folder;
+  const pid_t process = ::fork();
+  if (process == 0) {
+    ::dup2(::open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    vp::call_objects([] {
+      struct {
+        std::uintptr_t given = 0;
+        void (*volatile own)() = [] {};
+      } memory;
+      reinterpret_cast<void (*)(std::uintptr_t*)>(dlsym(loaded(), "damage"))(&memory.given);
+      memory.own();
+    });
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  BOOST_TEST_REQUIRE(WIFEXITED(status));
+  BOOST_TEST(WEXITSTATUS(status) == 3);
+  BOOST_TEST(kit::read_file(folder / "err") ==
+             "markervp: the platform's own code failed while design '" + path +
+                 "' is loaded: it wrote where it must not, or this is a bug of markervp: run "
+                 "without it to see\n");
+}
+#endif
 
 BOOST_AUTO_TEST_CASE(files_that_are_no_objects) {
   const auto refusal = [](const std::string& file) {

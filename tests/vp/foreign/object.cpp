@@ -1,4 +1,5 @@
 // A shared object whose functions end or damage the process.
+#include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -16,5 +17,9 @@ extern "C" void end_the_process() {
 }
 extern "C" void throw_an_error() {
   throw std::runtime_error("thrown by an object");
+}
+/// Writes beyond what it was given.
+extern "C" void damage(std::uintptr_t* place) {
+  place[1] = 8;
 }
 extern "C" void do_nothing() {}

@@ -85,7 +85,7 @@ struct Fault {
 ///
 /// A trap of `Of::objects` runs the platform's code, which calls shared objects that a user brought
 /// (foreign_object.h): faults while a function of one is under way belong to it. All others end the
-/// process as they always did. Such traps may be nested.
+/// process: see end_if_damaged(). Such traps may be nested.
 class FaultTrap {
  public:
   enum class Of { code, objects };

@@ -44,6 +44,10 @@ bool has_kept_objects();
 /// handlers, too.
 const char* foreign_object_at(std::uintptr_t address);
 
+/// The platform's own code failed. If an object is kept, which may have written where it must not,
+/// the process ends with a message and exit code 3; otherwise this returns. For signal handlers.
+void end_if_damaged();
+
 /// Runs `code`, which touches an object. Returns what stopped it: "it called exit(0)", "it threw an
 /// exception: …"; empty if nothing did.
 std::string stopped_by(const std::function<void()>& code);
