@@ -88,14 +88,13 @@ class LocalThreshold : public GlobalThreshold {
       "pixels of the window on each side of its middle; its rows are line buffers"};
   vp::Parameter<std::uint32_t> offset{
       "offset",
-      10,
+      2,
       vp::Unit::none,
       {1, 255},
       vp::Source::decision,
       "grey levels by which a dark pixel is darker than its window's mean"};
-
   vp::Parameter<std::uint32_t> relative{"relative",
-                                        0,
+                                        3,
                                         vp::Unit::none,
                                         {0, 7},
                                         vp::Source::decision,
