@@ -1,4 +1,5 @@
 // The local threshold against its definition, and both models against each other.
+#include <pl/common/simd_target.h>
 #include <pl/local_threshold/local_threshold.h>
 #include <vp/error.h>
 
@@ -98,7 +99,7 @@ Seen run(const std::string& model, const Script& script,
 
 BOOST_AUTO_TEST_SUITE(local_threshold)
 
-BOOST_AUTO_TEST_CASE(both_ways_to_find_it_are_the_definition) {
+BOOST_AUTO_TEST_CASE(both_ways_to_find_it_are_the_definition_on_every_simd_target) {
   Random random(1);
   for (int round = 0; round < 40; ++round) {
     const pl::Geometry g{32 * (1 + random.below(3)), 16 + random.below(20)};
@@ -106,8 +107,14 @@ BOOST_AUTO_TEST_CASE(both_ways_to_find_it_are_the_definition) {
                              random.below(2) * (1 + random.below(7)),
                              static_cast<std::uint8_t>(random.below(2) * random.below(60))};
     const Image image = harness::noise(g.width, g.height, random.below(1000));
-    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> words, others;
     pl::find_dark(image.data(), g, rule, words);
+    for (const std::string& target : pl::simd_targets()) {
+      BOOST_REQUIRE(pl::use_simd_target(target));
+      pl::find_dark(image.data(), g, rule, others);
+      BOOST_TEST((others == words), target);
+    }
+    pl::use_simd_target("");
     pl::LocalThresholdCore core(g, rule.radius);
     core.begin(rule);
     for (std::uint32_t i = 0; i < g.pixels() + core.lag(); ++i) {
