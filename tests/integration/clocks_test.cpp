@@ -45,7 +45,8 @@ bool some_warning_has(const UnitReport& frame, const std::string& text) {
 void check_same_finds(const UnitReport& frame, const UnitReport& expected) {
   BOOST_TEST(overflows(frame) == 0u);
   BOOST_TEST(frame.warnings.empty());
-  BOOST_TEST(platform::marker_frame(frame).threshold == platform::marker_frame(expected).threshold);
+  BOOST_TEST(platform::marker_frame(frame).threshold.value() ==
+             platform::marker_frame(expected).threshold.value());
   BOOST_TEST(features(frame) == features(expected), boost::test_tools::per_element());
   BOOST_TEST_REQUIRE(platform::marker_frame(frame).markers.size() == 1u);
   BOOST_TEST(platform::marker_frame(frame).markers[0].id ==

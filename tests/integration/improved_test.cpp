@@ -288,6 +288,27 @@ double sustained_fps(const Json& result) {
   return (frames - 1) / (frames / mean - 1 / first);
 }
 
+// 8 % of the light: edges are 17 grey levels high. The first frame has no threshold of one before.
+BOOST_AUTO_TEST_CASE(markers_are_found_in_dim_light) {
+  const std::string dim = "front0@distance=2.5m,pitch=30deg,yaw=20deg,markers=4,light=0.08";
+  const auto markers = [](const Json& frame) { return frame["markers"].size(); };
+  const Json frames = run_of({dim, dim})["frames"];
+  BOOST_TEST(markers(frames[0]) == 0u);
+  BOOST_TEST(markers(frames[1]) == 4u);
+  for (const Json& frame : run_of(with({dim, dim}, "sw.minimum_contrast=20"))["frames"])
+    BOOST_TEST(markers(frame) == 0u);
+  const Json careful = run_of({dim}, 0, "careful")["frames"][0];
+  BOOST_TEST(markers(careful) == 4u, "what lies around a pixel needs no frame before");
+  BOOST_TEST(!careful.contains("threshold"), "no frame has one for all its pixels");
+}
+
+BOOST_AUTO_TEST_CASE(careful_finds_what_is_hidden_in_part) {
+  const Arguments hidden{"front0@distance=1.5m,roll=10deg,markers=4,hidden=0.1"};
+  const auto markers = [](const Json& result) { return result["frames"][0]["markers"].size(); };
+  BOOST_TEST(markers(run_of(hidden)) == 3u);
+  BOOST_TEST(markers(run_of(hidden, 0, "careful")) == 4u);
+}
+
 // Issue 17: 300 frames a second, of which plain squares take little: they are not measured.
 BOOST_AUTO_TEST_CASE(fifteen_squares_do_not_slow_it_down) {
   const Json result = run_of({"squares15", "--repeat", "10"});

@@ -242,6 +242,15 @@ BOOST_AUTO_TEST_CASE(still_images_have_a_threshold_of_their_own) {
   }
 }
 
+// What lies around a pixel decides: no picture before it matters.
+BOOST_AUTO_TEST_CASE(a_threshold_of_each_pixel_needs_no_picture_before) {
+  const Light place;
+  for (const Json& frame : frames_of(place, {"bright.png", "dim.png", "--design", "careful"})) {
+    check_marker(frame, 0);
+    BOOST_TEST(!frame.contains("settling_showings"));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(settling_is_in_no_rate_and_no_energy) {
   const Light place;
   const auto summary = [&](const Arguments& arguments) {

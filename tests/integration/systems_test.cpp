@@ -40,8 +40,8 @@ void check_same_results(const PlatformRun& a, const PlatformRun& b) {
   BOOST_TEST_REQUIRE(a.frames.size() == b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
     BOOST_TEST_CONTEXT(a.frames[i].input) {
-      BOOST_TEST(platform::marker_frame(a.frames[i]).threshold ==
-                 platform::marker_frame(b.frames[i]).threshold);
+      BOOST_TEST(platform::marker_frame(a.frames[i]).threshold.value() ==
+                 platform::marker_frame(b.frames[i]).threshold.value());
       BOOST_TEST(features(a.frames[i]) == features(b.frames[i]), boost::test_tools::per_element());
       BOOST_TEST(a.frames[i].counts["candidates"] == b.frames[i].counts["candidates"]);
       check_same_marker(a.frames[i], b.frames[i]);

@@ -10,12 +10,13 @@ const DesignInfo& ps_only_design();
 const DesignInfo& improved_design();
 const DesignInfo& hd_design();
 const DesignInfo& eco_design();
+const DesignInfo& careful_design();
 
 namespace {
 
 /// The designs of this application, the thesis' being the usual one; what they take and find.
-const DesignRegistration registration{thesis_design, ps_only_design, improved_design, hd_design,
-                                      eco_design};
+const DesignRegistration registration{thesis_design, ps_only_design, improved_design,
+                                      hd_design,     eco_design,     careful_design};
 const study::InputKindRegistration images(input::image_input);
 const bool has_metrics = register_marker_metrics();
 

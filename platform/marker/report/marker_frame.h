@@ -78,7 +78,8 @@ class MarkerFrame : public facts::UnitExtra {
  public:
   /// Simulated time: the middle of the exposure, or when the work on the image began.
   std::optional<std::uint64_t> taken_ps;
-  std::uint32_t threshold = 0;  ///< grey level at which this frame was made binary
+  /// Grey level at which this frame was made binary; none: each pixel had one of its own.
+  std::optional<std::uint32_t> threshold;
   std::vector<FoundMarker> markers;
   std::optional<FoundBoard> board;         ///< where the program looks for one, and sees it
   std::optional<ResponseUse> response;     ///< none: levels are known to be light

@@ -135,7 +135,7 @@ void MarkerFrame::add_members(Place place, Json& json) const {
       if (taken_ps)
         json["taken_us"] =
             result::rounded(static_cast<double>(*taken_ps) / facts::ps_per_us, us_places);
-      json["threshold"] = threshold;
+      if (threshold) json["threshold"] = *threshold;
       return;
     case Place::before_counts:
       if (truth) json["scene_marker"] = truth->marker_id;

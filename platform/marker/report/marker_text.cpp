@@ -114,7 +114,7 @@ Lines MarkerFrame::lines() const {
 }
 
 std::string MarkerFrame::counts_text() const {
-  return "threshold " + std::to_string(threshold);
+  return threshold ? "threshold " + std::to_string(*threshold) : "";
 }
 
 std::vector<std::string> marker_summary(const facts::Summary& summary) {

@@ -30,8 +30,8 @@
   X(minimum_side, "px", 9, 4, 1000,                                                           \
     "blobs whose box is smaller are not looked at: six cells of the least size (decision)")   \
   X(white_border, "", 0, 0, 32, "so many cells of a marker's border may be white (decision)") \
-  X(minimum_contrast, "", 20, 5, 255,                                                         \
-    "grey levels between the sides of an edge; 8 finds markers in dim light (decision)")      \
+  X(minimum_contrast, "", 8, 5, 255,                                                          \
+    "grey levels between the sides of an edge; as few as dim light leaves (decision)")        \
   X(tries, "one|nearer|outlines", 0, 0, 2,                                                    \
     "nearer: what is refused is looked at once more, nearer to its edge (neighbours that "    \
     "nearly touch); outlines: and then its outline is followed (touched and hidden corners)") \

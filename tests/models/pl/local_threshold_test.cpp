@@ -1,4 +1,5 @@
 // The local threshold against its definition, and both models against each other.
+#include <pl/common/simd_target.h>
 #include <pl/local_threshold/local_threshold.h>
 #include <vp/error.h>
 
@@ -80,9 +81,12 @@ class Monitor final : public vp::Clocked {
 
 constexpr pl::Geometry size{64, 16};
 
+/// Darker by ten levels, whatever the light.
+const std::vector<std::string> by_offset{"local_threshold.radius=3px", "local_threshold.relative=0",
+                                         "local_threshold.offset=10"};
+
 Seen run(const std::string& model, const Script& script,
-         const std::vector<std::string>& settings = {"local_threshold.radius=3px"},
-         std::uint32_t pixels_per_clock = 1) {
+         const std::vector<std::string>& settings = by_offset, std::uint32_t pixels_per_clock = 1) {
   pl::Geometry geometry = size;
   geometry.pixels_per_clock = pixels_per_clock;
   ThresholdBench b(pl::LocalThreshold::models(), model, geometry, script, settings);
@@ -95,7 +99,7 @@ Seen run(const std::string& model, const Script& script,
 
 BOOST_AUTO_TEST_SUITE(local_threshold)
 
-BOOST_AUTO_TEST_CASE(both_ways_to_find_it_are_the_definition) {
+BOOST_AUTO_TEST_CASE(both_ways_to_find_it_are_the_definition_on_every_simd_target) {
   Random random(1);
   for (int round = 0; round < 40; ++round) {
     const pl::Geometry g{32 * (1 + random.below(3)), 16 + random.below(20)};
@@ -103,8 +107,14 @@ BOOST_AUTO_TEST_CASE(both_ways_to_find_it_are_the_definition) {
                              random.below(2) * (1 + random.below(7)),
                              static_cast<std::uint8_t>(random.below(2) * random.below(60))};
     const Image image = harness::noise(g.width, g.height, random.below(1000));
-    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> words, others;
     pl::find_dark(image.data(), g, rule, words);
+    for (const std::string& target : pl::simd_targets()) {
+      BOOST_REQUIRE(pl::use_simd_target(target));
+      pl::find_dark(image.data(), g, rule, others);
+      BOOST_TEST((others == words), target);
+    }
+    pl::use_simd_target("");
     pl::LocalThresholdCore core(g, rule.radius);
     core.begin(rule);
     for (std::uint32_t i = 0; i < g.pixels() + core.lag(); ++i) {
@@ -162,15 +172,13 @@ BOOST_AUTO_TEST_CASE(the_image_leaves_at_these_clocks) {
   }
 }
 
-// The share of the mean takes a register more.
+// As it is by default: the share of the mean takes a register more.
 BOOST_AUTO_TEST_CASE(a_share_of_the_mean_leaves_a_clock_later) {
   Script script;
   script.frames[10] = harness::noise(size.width, size.height, 5);
   script.end = 3000;
   for (const char* model : {"clocked", "tlm"}) {
-    const Seen seen = run(
-        model, script,
-        {"local_threshold.radius=3px", "local_threshold.relative=3", "local_threshold.offset=2"});
+    const Seen seen = run(model, script, {"local_threshold.radius=3px"});
     BOOST_REQUIRE_EQUAL(seen.edges.size(), size.pixels());
     BOOST_TEST(seen.edges.front() == 11 + 3 * size.width + 3 + 4 + 1);
     for (std::uint32_t i = 0; i < size.pixels(); ++i) {
@@ -201,7 +209,7 @@ BOOST_AUTO_TEST_CASE(the_image_of_groups_leaves_at_these_clocks) {
   script.frames[10] = harness::noise(size.width, size.height, 5);
   script.end = 3000;
   for (const char* model : {"clocked", "tlm"}) {
-    const Seen seen = run(model, script, {"local_threshold.radius=3px"}, 4);
+    const Seen seen = run(model, script, by_offset, 4);
     BOOST_REQUIRE_EQUAL(seen.edges.size(), size.pixels());
     BOOST_TEST(seen.edges.front() == 11 + 3 * size.width / 4 + 1 + 3 + 1);
     BOOST_TEST(seen.edges.back() == seen.edges.front() + size.pixels() / 4 - 1);

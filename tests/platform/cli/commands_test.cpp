@@ -160,15 +160,16 @@ BOOST_AUTO_TEST_CASE(designs_are_listed) {
   const auto list = nlohmann::json::parse(out);
   std::vector<std::string> names;
   for (const auto& design : list) names.push_back(design["name"]);
-  BOOST_TEST(names == (std::vector<std::string>{"thesis", "ps-only", "improved", "hd", "eco"}),
-             boost::test_tools::per_element());
+  BOOST_TEST(
+      names == (std::vector<std::string>{"thesis", "ps-only", "improved", "hd", "eco", "careful"}),
+      boost::test_tools::per_element());
   BOOST_TEST(list[1]["programs"][0] == "ps-only");
 }
 
 BOOST_AUTO_TEST_CASE(designs_are_shown_with_their_figures) {
   BOOST_TEST(run({"designs", "z1.0", "--figures", "--json"}) == 0, err);
   const nlohmann::json designs = nlohmann::json::parse(out);
-  BOOST_TEST(designs.size() == 5u);
+  BOOST_TEST(designs.size() == 6u);
   const auto figure = [&](std::size_t i, const char* key) {
     return designs[i].at(key).get<double>();
   };

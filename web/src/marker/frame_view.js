@@ -80,7 +80,7 @@ function facts(frame) {
   }
   if (frame.markers.length === 0) add("Marker", "none found");
   for (const name of countsOf([frame])) add(heading(name), fixed(frame.counts[name], 0));
-  add("Threshold", String(frame.threshold));
+  if (frame.threshold !== undefined) add("Threshold", String(frame.threshold));
   if (Number.isFinite(frame.energy_mj?.total ?? frame.energy_mj)) add("Energy", significant(frame.energy_mj.total ?? frame.energy_mj, 3) + " mJ");
   return h("dl", { class: "facts" }, list);
 }

@@ -10,8 +10,8 @@ module local_threshold #(
     parameter int WIDTH = 640,
     parameter int HEIGHT = 480,
     parameter int RADIUS = 5,   // pixels of the window on each side of its middle
-    parameter int OFFSET = 10,  // levels by which a dark pixel is below its window's mean
-    parameter int RELATIVE = 0,  // and by 1 / 2^RELATIVE of the mean; 0: by OFFSET alone
+    parameter int OFFSET = 2,   // levels by which a dark pixel is below its window's mean
+    parameter int RELATIVE = 3,  // and by 1 / 2^RELATIVE of the mean; 0: by OFFSET alone
     parameter int PIXELS_PER_CLOCK = 1,  // 1, 2 or 4
     parameter int X_BITS = WIDTH > 1024 ? $clog2(WIDTH) : 10,
     parameter int Y_BITS = HEIGHT > 512 ? $clog2(HEIGHT) : 9

@@ -138,7 +138,7 @@ bool ImprovedDesign::report(const Publication& publication, facts::UnitReport& f
 void ImprovedDesign::fill_in(facts::UnitReport& frame, std::uint64_t now_ps) const {
   frame.index = result_.frame;
   MarkerFrame& found = marker_frame(frame);
-  found.threshold = result_.threshold;
+  if (has_frame_threshold()) found.threshold = result_.threshold;
   if (result_.status != marker::DetectionStatus::ok) {
     frame.gave_up = marker::status_name(result_.status);
     frame.warnings.push_back("the software gave up: " + frame.gave_up);
@@ -299,7 +299,7 @@ std::string board_text(const BoardFit& fit, const std::vector<std::string>& layo
 // software works on the one before, its period depends on that work, too: the second showing makes
 // it the image's own, as in a steady stream.
 std::uint32_t ImprovedDesign::settling_showings() const {
-  if (threshold_rule.get() == "local") return 0;
+  if (!has_frame_threshold()) return 0;
   return has_option("overlap") ? 2 : 1;
 }
 
@@ -471,6 +471,19 @@ const DesignInfo& eco_design() {
                                 {"power.ddr.width", "16"},
                                 {"power.ddr.frequency", "400 MHz"},
                                 {"power.ddr.voltage", "1.35 V"}}};
+  return info;
+}
+
+// What dim or uneven light leaves, and what something touches or covers in part.
+const DesignInfo& careful_design() {
+  static const DesignInfo info{
+      "careful",
+      "the improved design for dim or uneven light, and for what is touched or hidden",
+      {"improved"},
+      true,
+      improved_words,
+      improved_design().make,
+      {{"pl.threshold_rule", "local"}, {"sw.tries", "outlines"}, {"sw.second_core", "1"}}};
   return info;
 }
 

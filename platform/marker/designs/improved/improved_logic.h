@@ -68,8 +68,9 @@ class ImprovedLogic : public sc_core::sc_module {
       vp::Source::decision,
       "otsu, global: how the threshold of the next frame follows from a frame's histogram, with "
       "Otsu's least variance, or midway between the peaks of its halves (thesis 4.3.5); local: "
-      "what "
-      "is darker than its surroundings is dark"};
+      "what is darker than its surroundings is dark"};
+  /// False: a pixel's surroundings decide, not the frame before.
+  bool has_frame_threshold() const { return threshold_rule.get() != "local"; }
   ImprovedFidelity fidelity;
   vp::Parameter<std::uint32_t> width, height;
   vp::Parameter<std::uint32_t> burst_words;

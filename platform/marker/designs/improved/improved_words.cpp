@@ -26,6 +26,7 @@ trace::Vocabulary make_improved_words() {
                 "pl.blob_stream.busy"}},
               {"Pixels",
                {"pl.camera.frame_ena", "pl.camera.pixel_x", "pl.camera.pixel_y", "pl.camera.pixel",
+                "pl.local_threshold.binary_ena", "pl.local_threshold.binary_out",
                 "pl.otsu_threshold.active_threshold"}},
               {"Picture",
                {"pl.pixels.tvalid", "pl.pixels.tready", "pl.pixels.tlast", "pl.pixels.tdata",

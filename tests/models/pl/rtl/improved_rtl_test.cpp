@@ -168,7 +168,7 @@ std::string parameters(const std::string& ip, std::uint32_t pixels) {
   std::string all = "WIDTH=64 HEIGHT=32 PIXELS_PER_CLOCK=" + std::to_string(pixels);
   if (ip == "blob_labelling") all += " LABELS=16 MINIMUM_SIDE=2 RUN_FIFO_DEPTH=12";
   if (ip == "local_threshold") all += " RADIUS=3";
-  if (ip == "local_threshold" && pixels == share_at) all += " RELATIVE=3 OFFSET=2";
+  if (ip == "local_threshold" && pixels != share_at) all += " RELATIVE=0 OFFSET=10";
   if (ip == "pixel_stream") all += " FIFO_DEPTH=6";
   return all;
 }
@@ -242,8 +242,8 @@ struct Chain : kit::Simulation {
                 "blob_labelling.run_fifo_depth=12", "pixel_stream.fifo_depth=6",
                 "blob_stream.fifo_depth=20"};
     if (rule == "local_threshold") all.push_back("local_threshold.radius=3 px");
-    if (rule == "local_threshold" && a_clock == share_at)
-      all.insert(all.end(), {"local_threshold.relative=3", "local_threshold.offset=2"});
+    if (rule == "local_threshold" && a_clock != share_at)
+      all.insert(all.end(), {"local_threshold.relative=0", "local_threshold.offset=10"});
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
