@@ -187,6 +187,7 @@ class Reporter final : public Replay::Listener {
     replay_.keep_texts();
     for (const std::string& name : options.signals)
       slots_.push_back(replay_.watch(vp::find_path(name, file.paths(), "values: ")));
+    occurred_ps_.resize(slots_.size());
   }
 
   /// False: nothing more is asked for.
@@ -206,6 +207,7 @@ class Reporter final : public Replay::Listener {
   bool instant(std::uint64_t ps) override {
     if (!times_.empty()) {
       rows_until(ps, true);
+      note_events(ps);
       return next_ < times_.size() && !stopped_;
     }
     if (ps >= options_.to_ps) return false;
@@ -220,10 +222,22 @@ class Reporter final : public Replay::Listener {
   void rows_until(std::uint64_t ps, bool before) {
     while (next_ < times_.size() && times_[next_] < ps && !stopped_) row(times_[next_++], before);
   }
+  /// An event has no value that stands: it is 1 at its time only.
+  void note_events(std::uint64_t ps) {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      const bool is_event = file_.variable(replay_.variable(slots_[i])).is_event;
+      if (is_event && replay_.bits(slots_[i]) != 0) occurred_ps_[i] = ps;
+    }
+  }
   void row(std::uint64_t ps, bool before) {
     ValueRow row{ps, {}};
-    for (const Replay::Slot slot : slots_) {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      const Replay::Slot slot = slots_[i];
       const vp::WaveVariable& variable = file_.variable(replay_.variable(slot));
+      if (occurred_ps_[i] == ps) {
+        row.values.emplace_back("1");
+        continue;
+      }
       const std::string& text = before ? replay_.text_before(slot) : replay_.text(slot);
       const auto kind = before ? replay_.kind_before(slot) : replay_.kind(slot);
       row.values.push_back(shown_value(file_, variable, text, kind));
@@ -237,6 +251,7 @@ class Reporter final : public Replay::Listener {
   Replay replay_;
   Watch watch_;
   std::vector<Replay::Slot> slots_;
+  std::vector<std::optional<std::uint64_t>> occurred_ps_;  ///< of events, by signal
   std::vector<std::uint64_t> times_;
   std::size_t next_ = 0;
   bool held_ = false, stopped_ = false;
