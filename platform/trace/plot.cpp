@@ -140,6 +140,7 @@ class Plotter final : public Replay::Listener {
   void add_event(Row& row, std::uint64_t ps) {
     if (ps < options_.from_ps || replay_.bits(row.slot) == 0) return;
     row.pieces.push_back({place(ps), "0", "0", true, 0, true, 0, 1});
+    row.pieces.push_back({place(ps), "0", "0", true, 0});
   }
 
   std::string axis(double height) const {

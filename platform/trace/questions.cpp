@@ -87,9 +87,12 @@ class Watch {
       return true;
     }
     const auto& changed = replay_.changed();
-    return std::any_of(changed.begin(), changed.end(), [&](Replay::Slot slot) {
-      return std::find(slots_.begin(), slots_.end(), slot) != slots_.end();
-    });
+    return std::any_of(changed.begin(), changed.end(),
+                       [&](Replay::Slot slot) { return uses(slot); });
+  }
+  /// The condition looks at it.
+  bool uses(Replay::Slot slot) const {
+    return std::find(slots_.begin(), slots_.end(), slot) != slots_.end();
   }
   vp::ExpressionValue value() const {
     if (condition_.text().empty()) return vp::ExpressionValue(1);
@@ -113,7 +116,8 @@ class Finder final : public Replay::Listener {
  public:
   Finder(TraceFile& file, const FindOptions& options,
          const std::function<bool(const Occurrence&)>& take)
-      : options_(options),
+      : file_(file),
+        options_(options),
         take_(take),
         replay_(file),
         watch_(replay_, options.condition, options.every, "find") {}
@@ -136,10 +140,21 @@ class Finder final : public Replay::Listener {
     if (watch_.due()) {
       const vp::ExpressionValue value = watch_.value();
       summary_.evaluated = summary_.evaluated || value.known;
-      if (holds_ && !value.holds()) end(ps);
+      if (holds_ && !value.holds()) end(only_events_end() ? before_ps_ : ps);
       if (value.holds()) begin(ps);
     }
+    before_ps_ = ps;
     return !stopped_;
+  }
+  /// Nothing happened but that events are over, which they were with their instant.
+  bool only_events_end() const {
+    if (watch_.is_clocked()) return false;
+    const auto& changed = replay_.changed();
+    return std::none_of(changed.begin(), changed.end(), [&](Replay::Slot slot) {
+      const bool is_over =
+          file_.variable(replay_.variable(slot)).is_event && replay_.bits(slot) == 0;
+      return watch_.uses(slot) && !is_over;
+    });
   }
   void begin(std::uint64_t ps) {
     if (!holds_) now_ = {std::max(ps, options_.from_ps), 0, 0, false};
@@ -163,12 +178,14 @@ class Finder final : public Replay::Listener {
     stopped_ = !take_(now_);
   }
 
+  const TraceFile& file_;
   const FindOptions& options_;
   const std::function<bool(const Occurrence&)>& take_;
   Replay replay_;
   Watch watch_;
   FindSummary summary_;
   Occurrence now_;
+  std::uint64_t before_ps_ = 0;  ///< the last instant
   bool holds_ = false, stopped_ = false;
 };
 

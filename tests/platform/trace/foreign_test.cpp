@@ -122,6 +122,15 @@ BOOST_AUTO_TEST_CASE(an_event_has_a_value_at_its_instant_only) {
   BOOST_TEST(values_at(text.file, times, indexed) == "0 1 0 0 1 0 ");
   BOOST_TEST(values_at(text.folder / "o.fst", times) == "0 1 0 0 1 0 ");
   // So it is for conditions, parts and differences.
+  std::string found;
+  TraceFile searched(text.file);
+  FindOptions condition;
+  condition.condition = "go";
+  find(searched, condition, [&](const Occurrence& one) {
+    found += std::to_string(one.from_ps) + "-" + std::to_string(one.until_ps) + " ";
+    return true;
+  });
+  BOOST_TEST(found == "10000-10000 30000-30000 ");
   const auto failures = [&](const std::string& check) {
     return judged(text.file, "n: " + check + "\n")[0].failures;
   };
@@ -135,9 +144,9 @@ BOOST_AUTO_TEST_CASE(an_event_has_a_value_at_its_instant_only) {
   BOOST_TEST(WaveText(text.folder / "p.vcd").lines.front() == "15000 a 0");
   const Text other(head + "#0 0#\n#10 1!\n#20 1#\n#30 0#\n#40 1#\n#50\n");
   TraceFile a(text.file), b(other.file);
-  const Difference found = difference(a, b);
-  BOOST_TEST(found.differ);
-  BOOST_TEST(found.a_ps == 30'000u);
+  const Difference between = difference(a, b);
+  BOOST_TEST(between.differ);
+  BOOST_TEST(between.a_ps == 30'000u);
 }
 
 BOOST_AUTO_TEST_CASE(states_are_compared_with_words) {
