@@ -156,7 +156,8 @@ void add_output_options(CLI::App& command, RunOptions& target) {
 }
 
 void add_trace_options(CLI::App& command, RunOptions& target) {
-  command.add_option("--trace", target.trace, "record waveforms, .vcd or .fst")->type_name("FILE");
+  command.add_option("--trace", target.trace, "record waveforms, .vcd, .vcd.gz or .fst")
+      ->type_name("FILE");
   command.add_option("--trace-window", target.trace_window, "record only then: 6ms:7ms")
       ->type_name("FROM:TO");
   command.add_option("--trace-filter", target.trace_filter, "record only these: 'pl.axi_dma_0.**'")

@@ -309,7 +309,7 @@ void add_transactions(CLI::App& trace, TraceCommandOptions& target) {
       ->type_name("N");
   command->add_option("--perfetto", target.perfetto, "write lanes for ui.perfetto.dev")
       ->type_name("FILE");
-  command->add_option("--lanes", target.lanes, "write lanes as signals, .vcd or .fst")
+  command->add_option("--lanes", target.lanes, "write lanes as signals, .vcd, .vcd.gz or .fst")
       ->type_name("FILE");
   add_formats(*command, target);
   command->footer(transactions_help);
@@ -381,13 +381,15 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
 
   CLI::App* cut = add(*trace, target, "cut", "write a part: a window, some signals");
   add_file(*cut, target);
-  cut->add_option("OUTPUT", target.other, "a .vcd or .fst")->type_name("FILE")->required();
+  cut->add_option("OUTPUT", target.other, "a .vcd, .vcd.gz or .fst")->type_name("FILE")->required();
   add_window(*cut, target);
   add_filter(*cut, target);
 
   CLI::App* convert = add(*trace, target, "convert", "write as the other format, under our names");
   add_file(*convert, target);
-  convert->add_option("OUTPUT", target.other, "a .vcd or .fst")->type_name("FILE")->required();
+  convert->add_option("OUTPUT", target.other, "a .vcd, .vcd.gz or .fst")
+      ->type_name("FILE")
+      ->required();
 
   CLI::App* plot = add(*trace, target, "plot",
                        "draw signals as SVG or timing diagram; a page to look around in");
@@ -402,6 +404,15 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
   plot->add_option("-o,--output", target.output,
                    "picture (default: plot.svg), diagram (diagram.json), or page (NAME.html)")
       ->type_name("FILE");
+
+  CLI::App* view = add(*trace, target, "view", "open it in a running Surfer or VaporView");
+  add_file(*view, target);
+  view->add_option("SIGNAL", target.signals, "names, or their ends, to show there")->type_name("");
+  view->add_option("--at", target.marker, "the moment: 6.1ms")->type_name("TIME");
+  view->add_option("--port", target.port,
+                   "of the viewer's WCP server (default: Surfer's 54321, then VaporView's 54322)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65535).description(""));
 
   CLI::App* gtkw = add(*trace, target, "gtkw", "write save and translate files for GTKWave");
   add_file(*gtkw, target);

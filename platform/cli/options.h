@@ -231,6 +231,7 @@ struct TraceCommandOptions {
   std::vector<std::string> kinds, described;
   std::optional<std::string> where, perfetto, lanes;
   std::uint64_t data_beats = 1, hang_clocks = 10, max_wait = 0;
+  std::optional<std::uint16_t> port;  ///< of the viewer
 };
 
 /// `markervp completion`.

@@ -102,10 +102,9 @@ vp::FrameTrigger trace_trigger(const RunOptions& options) {
 vp::TraceOptions trace_options(const RunOptions& options) {
   vp::TraceOptions trace;
   trace.file = *options.trace;
-  const std::string format = trace.file.extension().string();
-  if (format != ".vcd" && format != ".fst") {
+  if (!vp::is_wave_file_name(trace.file)) {
     throw vp::InputError("--trace '" + *options.trace +
-                         "': the file's name must end in .vcd or .fst");
+                         "': the file's name must end in .vcd, .vcd.gz or .fst");
   }
   if (options.trace_window) {
     const TimeWindow window = parse_trace_window(*options.trace_window);

@@ -2,7 +2,9 @@
 #include <cctype>
 #include <filesystem>
 #include <ostream>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <cli/commands.h>
@@ -51,20 +53,44 @@ CheckCounts print_checks(const std::vector<trace::CheckResult>& results, std::os
   return counts;
 }
 
+/// Names for the pages of checks: no two are the same, whatever the checks are called.
+class PageNames {
+ public:
+  /// `first`: of the first failure.
+  explicit PageNames(std::filesystem::path first) : first_(std::move(first)) {
+    // Surfer's file lies beside each page, and has this extension.
+    if (first_.extension() == ".sucl") first_.replace_extension(".gtkw");
+  }
+  std::filesystem::path next(const std::string& check) {
+    if (used_.empty()) {
+      used_.insert("");
+      return first_;
+    }
+    std::string plain = check;
+    for (char& c : plain) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    std::string name = plain;
+    for (unsigned n = 2; !used_.insert(name).second; ++n) name = plain + "_" + std::to_string(n);
+    return named(name);
+  }
+  std::filesystem::path named(const std::string& part) const {
+    std::filesystem::path page = first_;
+    return page.replace_filename(first_.stem().string() + "." + part + first_.extension().string());
+  }
+
+ private:
+  std::filesystem::path first_;
+  std::set<std::string> used_;
+};
+
 /// Pages for GTKWave and Surfer around each failure. The first one in time has the name that the
 /// user gave; the others have theirs from their checks.
 void write_pages(const TraceCommandOptions& options, const trace::TraceFile& file,
                  std::vector<const trace::CheckResult*> failed, std::ostream& out) {
   std::stable_sort(failed.begin(), failed.end(),
                    [](const auto* a, const auto* b) { return a->first_ps < b->first_ps; });
-  const std::filesystem::path first = options.output.value_or(options.file + ".failed.gtkw");
+  PageNames names(options.output.value_or(options.file + ".failed.gtkw"));
   for (const trace::CheckResult* result : failed) {
-    std::filesystem::path page = first;
-    if (result != failed.front()) {
-      std::string name = result->check->name;
-      for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-      page.replace_filename(first.stem().string() + "." + name + first.extension().string());
-    }
+    const std::filesystem::path page = names.next(result->check->name);
     const trace::SaveFile save = trace::failure_page(file, *result);
     vp::write_file(page.string(), trace::save_file_text(save));
     const std::string commands = std::filesystem::path(page).replace_extension(".sucl").string();
@@ -74,8 +100,7 @@ void write_pages(const TraceCommandOptions& options, const trace::TraceFile& fil
         << options.file << " --command-file " << commands << "\n";
   }
   if (failed.size() > 1)
-    out << "the others have pages of their own: " << first.stem().string() << ".CHECK"
-        << first.extension().string() << "\n";
+    out << "the others have pages of their own: " << names.named("CHECK").string() << "\n";
 }
 
 }  // namespace

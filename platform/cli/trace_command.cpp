@@ -12,6 +12,7 @@
 #include <trace/questions.h>
 #include <trace/statistics.h>
 #include <trace/tools.h>
+#include <trace/viewer_control.h>
 #include <trace/wavedrom.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -254,6 +255,10 @@ int diagram(const TraceCommandOptions& options, TraceFile& file, const trace::Pl
 /// A page with a viewer in place of a picture.
 int viewer(const TraceCommandOptions& options, const std::string& name, std::ostream& out,
            std::ostream& err) {
+  if (options.every) {
+    throw vp::InputError("plot: '" + name +
+                         "' is a page, and --every makes a timing diagram: -o diagram.json");
+  }
   if (!page::write_page(name, {{"waves", waves_json(options, err)}}))
     throw vp::InputError("this program was built without its page: draw an SVG");
   out << "wrote " << name << "\n";
@@ -282,11 +287,29 @@ int plot(const TraceCommandOptions& options, std::ostream& out, std::ostream& er
   }
   if (asked.to_ps <= asked.from_ps) throw vp::InputError("the trace ends before --window begins");
   if (options.every) return diagram(options, file, asked, out, err);
-  if (options.marker)
-    asked.marker_ps = parse_trace_window(*options.marker + ":", "--marker").from_ps;
+  if (options.marker) asked.marker_ps = parse_moment(*options.marker, "--marker");
   const std::string picture = trace::plot_as_svg(file, asked);
   vp::write_file(name, picture);
   out << "wrote " << name << "\n";
+  warn_of(file, err);
+  return done;
+}
+
+/// A moment in a viewer that runs.
+int view(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  const TraceFile file = opened(options);
+  trace::Viewing asked;
+  asked.file = std::filesystem::absolute(options.file).lexically_normal().string();
+  for (const std::string& name : options.signals)
+    asked.signals.push_back(file.variable(vp::find_path(name, file.paths(), "view: ")).path);
+  if (options.marker) {
+    asked.steps =
+        trace::steps_of(parse_moment(*options.marker, "--at"), file.reader().timescale_fs());
+  }
+  for (const std::string& undone : trace::show_in_viewer(asked, options.port))
+    err << "markervp: warning: " << undone << std::endl;
+  out << "the viewer shows " << options.file
+      << (options.marker ? " at " + *options.marker : std::string()) << "\n";
   warn_of(file, err);
   return done;
 }
@@ -311,6 +334,7 @@ int answer(const TraceCommandOptions& options, std::ostream& out, std::ostream& 
   if (options.command == "check") return check_trace(options, out, err);
   if (options.command == "diff") return diff(options, out, err);
   if (options.command == "plot") return plot(options, out, err);
+  if (options.command == "view") return view(options, out, err);
   if (options.command == "gtkw") return gtkw(options, out, err);
   return cut(options, out, err);  // and convert, which takes no part
 }

@@ -8,6 +8,7 @@
 #include <trace/transactions/lanes.h>
 #include <trace/transactions/transactions.h>
 #include <vp/error.h>
+#include <vp/varint.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -40,7 +41,7 @@ std::string signal_json(const Recording::Signal& signal) {
   if (signal.same_as >= 0) return text + ",\"sameAs\":" + std::to_string(signal.same_as) + "}";
   text += ",\"count\":" + std::to_string(signal.count) + ",\"changes\":\"" +
           page::base64(signal.changes) + "\"";
-  if (signal.form != Recording::Form::bit) text += ",\"words\":" + json_list(signal.words);
+  if (signal.form != Recording::Form::bit) text += ",\"words\":" + json_list(signal.words.words());
   return text + "}";
 }
 
@@ -48,8 +49,7 @@ std::string signal_json(const Recording::Signal& signal) {
 /// text · 2 + whether a rule is broken.
 struct LaneColumn {
   std::string bytes;
-  std::vector<std::string> words;
-  std::map<std::string, std::uint64_t> place_of;
+  trace::WordTable words;
   std::uint64_t count = 0, last_ps = 0;
 };
 
@@ -72,14 +72,12 @@ class LaneColumns {
     LaneColumn& lane = columns_.try_emplace(name).first->second;
     lane.last_ps = std::max(lane.last_ps, window_.from_ps);
     const std::uint64_t begin = std::max(place.from_ps, lane.last_ps);
-    trace::append_number(lane.bytes, begin - lane.last_ps);
-    trace::append_number(lane.bytes, std::max(place.to_ps, begin) - begin);
+    vp::put_varint(lane.bytes, begin - lane.last_ps);
+    vp::put_varint(lane.bytes, std::max(place.to_ps, begin) - begin);
     // Without anything to say it is the operation.
     std::string text = trace::lane_text(one);
     if (text != one.operation) text = one.operation + (" " + text);
-    const auto [known, is_new] = lane.place_of.emplace(text, lane.words.size());
-    if (is_new) lane.words.push_back(text);
-    trace::append_number(lane.bytes, known->second * 2 + (one.violations.empty() ? 0 : 1));
+    vp::put_varint(lane.bytes, lane.words.place(text) * 2 + (one.violations.empty() ? 0 : 1));
     lane.last_ps = begin;
     ++lane.count;
   }
@@ -89,7 +87,7 @@ class LaneColumns {
     for (const auto& [name, lane] : columns_) {
       text += std::string(text.size() > 1 ? "," : "") + "{\"name\":" + trace::json_text(name) +
               ",\"count\":" + std::to_string(lane.count) + ",\"spans\":\"" +
-              page::base64(lane.bytes) + "\",\"words\":" + json_list(lane.words) + "}";
+              page::base64(lane.bytes) + "\",\"words\":" + json_list(lane.words.words()) + "}";
     }
     return text + "]";
   }
@@ -104,7 +102,8 @@ class LaneColumns {
 /// The transactions of the buses, if the trace has any, and how many there is no room for.
 std::string lanes_json(const TraceCommandOptions& options, const Recording& window,
                        std::ostream& err) {
-  const trace::TransactionsOptions asked;
+  trace::TransactionsOptions asked;
+  asked.to_ps = window.to_ps;
   std::optional<trace::Survey> survey;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(options.file, ignored))
@@ -137,8 +136,12 @@ std::string waves_json(const TraceCommandOptions& options, std::ostream& err) {
   const Recording found = trace::recording(file, asked);
   std::string text =
       "{\"file\":" + trace::json_text(std::filesystem::path(options.file).filename().string()) +
-      ",\"from\":" + std::to_string(found.from_ps) + ",\"to\":" + std::to_string(found.to_ps) +
-      ",\"leftOut\":" + std::to_string(found.left_out) + ",\"signals\":[";
+      ",\"path\":" + trace::json_text(options.file) + ",\"from\":" + std::to_string(found.from_ps) +
+      ",\"to\":" + std::to_string(found.to_ps) + ",\"dropped\":" + std::to_string(found.dropped) +
+      ",\"leftOut\":" + std::to_string(found.left_out);
+  if (options.marker)
+    text += ",\"cursor\":" + std::to_string(parse_moment(*options.marker, "--marker"));
+  text += ",\"signals\":[";
   for (std::size_t i = 0; i < found.signals.size(); ++i)
     text += (i == 0 ? "" : ",") + signal_json(found.signals[i]);
   text += "],\"lanes\":" + (options.signals.empty() ? lanes_json(options, found, err) : "[]") + "}";
@@ -147,13 +150,13 @@ std::string waves_json(const TraceCommandOptions& options, std::ostream& err) {
 }
 
 std::string waves_of_run(const std::string& file) {
-  // In bytes, a second of reading; an FST is some 30 times smaller than its VCD.
-  constexpr std::uint64_t largest_vcd = 256 << 20, largest_fst = 16 << 20;
-  const bool is_fst = std::filesystem::path(file).extension() == ".fst";
+  // In bytes, a second of reading; what is packed is 10 to 30 times smaller.
+  constexpr std::uint64_t largest_vcd = 256 << 20, largest_packed = 16 << 20;
+  const bool is_plain = std::filesystem::path(file).extension() == ".vcd";
   std::error_code failed;
   const auto size = std::filesystem::file_size(file, failed);
   if (failed) return "{}";  // a pipe: its reader has the trace
-  if (size > (is_fst ? largest_fst : largest_vcd))
+  if (size > (is_plain ? largest_vcd : largest_packed))
     return "{\"tooLarge\":" + trace::json_text(file) + "}";
   TraceCommandOptions options;
   options.file = file;

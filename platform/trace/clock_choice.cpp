@@ -32,6 +32,11 @@ std::string_view leaf_of(std::string_view path) {
   return path.substr(path.rfind('.') + 1);
 }
 
+std::string_view scope_of(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string_view::npos ? std::string_view() : path.substr(0, dot);
+}
+
 std::pair<std::size_t, std::size_t> nearness(std::string_view link, std::string_view clock) {
   std::size_t levels = 0, same = 0;
   for (; same < std::min(link.size(), clock.size()) && link[same] == clock[same]; ++same)

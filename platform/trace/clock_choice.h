@@ -85,5 +85,7 @@ std::string lower(std::string_view text);
 bool ends_with(std::string_view text, std::string_view end);
 /// What is behind the last '.'.
 std::string_view leaf_of(std::string_view path);
+/// "pl.filter" of "pl.filter.sum"; empty without a level.
+std::string_view scope_of(std::string_view path);
 
 }  // namespace platform::trace

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include <trace/replay.h>
 #include <vp/error.h>
@@ -29,6 +30,7 @@ struct Side {
       if (variable.width == 0) continue;
       signals_of_net[variable.net].push_back(found->second);
       variables[found->second] = &variable;
+      if (variable.is_event) values[found->second] = "0";
       file.reader().select(variable.net);
     }
     if (options_.by_frame) {
@@ -40,6 +42,8 @@ struct Side {
 
   /// To the next instant.
   void step() {
+    // An event is over when its instant is.
+    for (const std::size_t signal : std::exchange(occurred, {})) values[signal] = "0";
     over = !stepper.next();
     if (over) return;
     if (options_.by_frame) {
@@ -61,6 +65,7 @@ struct Side {
         if (values[signal] != change.text) note(signal, change.text);
         values[signal] = change.text;
         touched.push_back(signal);
+        if (variables[signal]->is_event) occurred.push_back(signal);
       }
     }
   }
@@ -77,6 +82,7 @@ struct Side {
   std::vector<std::vector<std::size_t>> signals_of_net;
   std::vector<const vp::WaveVariable*> variables;
   std::vector<std::string> values;
+  std::vector<std::size_t> occurred;  ///< events in this instant
   std::deque<Difference::Event> recent;
   std::uint32_t frame_net = 0;
   std::string frame_value;

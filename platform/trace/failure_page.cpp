@@ -15,12 +15,6 @@ namespace {
 
 using Paths = std::vector<std::string>;
 
-/// "pl.filter" of "pl.filter.sum".
-std::string_view scope_of(std::string_view path) {
-  const std::size_t dot = path.rfind('.');
-  return dot == std::string_view::npos ? std::string_view() : path.substr(0, dot);
-}
-
 bool has_word(std::string_view path, const std::vector<const char*>& words) {
   const std::string leaf = lower(leaf_of(path));
   return std::any_of(words.begin(), words.end(),

@@ -33,6 +33,7 @@ struct Row {
   Replay::Slot slot;
   Kind kind;
   unsigned width;
+  bool is_event;
   std::vector<Piece> pieces;
 };
 
@@ -62,13 +63,20 @@ class Plotter final : public Replay::Listener {
     for (const std::string& name : options.signals) {
       const auto place = vp::find_path(name, file.paths(), "plot: ");
       const vp::WaveVariable& variable = file.variable(place);
-      rows_.push_back(
-          {file.paths()[place], replay_.watch(place), variable.kind, variable.width, {}});
+      rows_.push_back({file.paths()[place],
+                       replay_.watch(place),
+                       variable.kind,
+                       variable.width,
+                       variable.is_event,
+                       {}});
       longest = std::max(longest, rows_.back().name.size());
     }
     left_ = 16 + static_cast<double>(longest) * character;
     scale_ = (options.width - left_ - 12) /
              static_cast<double>(std::max<std::uint64_t>(options.to_ps - options.from_ps, 1));
+    for (Row& row : rows_) {
+      if (row.is_event) row.pieces.push_back({left_, "0", "0", true, 0});
+    }
   }
 
   std::string svg() {
@@ -97,7 +105,11 @@ class Plotter final : public Replay::Listener {
     for (Row& row : rows_) {
       const auto& changed = replay_.changed();
       if (std::find(changed.begin(), changed.end(), row.slot) == changed.end()) continue;
-      add(row, ps);
+      if (row.is_event) {
+        add_event(row, ps);
+      } else {
+        add(row, ps);
+      }
     }
     return true;
   }
@@ -122,6 +134,13 @@ class Plotter final : public Replay::Listener {
     } else {
       row.pieces.push_back(piece);
     }
+  }
+
+  /// An event is a spike on a line at 0.
+  void add_event(Row& row, std::uint64_t ps) {
+    if (ps < options_.from_ps || replay_.bits(row.slot) == 0) return;
+    row.pieces.push_back({place(ps), "0", "0", true, 0, true, 0, 1});
+    row.pieces.push_back({place(ps), "0", "0", true, 0});
   }
 
   std::string axis(double height) const {
@@ -266,12 +285,15 @@ std::string readable(const std::string& text, Kind kind, unsigned width) {
       value = value * 2 + (c == '1' || c == 'h' ? 1 : 0);
     }
     if (!known) {
-      result += 'x';
+      const bool alike = digits.find_first_not_of(digits.front()) == std::string_view::npos;
+      result += alike ? digits.front() : 'x';
     } else if (value != 0 || !result.empty() || i + 4 == padded.size()) {
       result += "0123456789ABCDEF"[value];
     }
   }
-  if (result.find_first_not_of('x') == std::string::npos) return "x";
+  // All of it is one letter: x, z, u.
+  const bool is_letter = std::string_view("xzuw-").find(result.front()) != std::string_view::npos;
+  if (is_letter && result.find_first_not_of(result.front()) == std::string::npos) result.resize(1);
   return result;
 }
 

@@ -87,9 +87,12 @@ class Watch {
       return true;
     }
     const auto& changed = replay_.changed();
-    return std::any_of(changed.begin(), changed.end(), [&](Replay::Slot slot) {
-      return std::find(slots_.begin(), slots_.end(), slot) != slots_.end();
-    });
+    return std::any_of(changed.begin(), changed.end(),
+                       [&](Replay::Slot slot) { return uses(slot); });
+  }
+  /// The condition looks at it.
+  bool uses(Replay::Slot slot) const {
+    return std::find(slots_.begin(), slots_.end(), slot) != slots_.end();
   }
   vp::ExpressionValue value() const {
     if (condition_.text().empty()) return vp::ExpressionValue(1);
@@ -113,7 +116,8 @@ class Finder final : public Replay::Listener {
  public:
   Finder(TraceFile& file, const FindOptions& options,
          const std::function<bool(const Occurrence&)>& take)
-      : options_(options),
+      : file_(file),
+        options_(options),
         take_(take),
         replay_(file),
         watch_(replay_, options.condition, options.every, "find") {}
@@ -136,10 +140,21 @@ class Finder final : public Replay::Listener {
     if (watch_.due()) {
       const vp::ExpressionValue value = watch_.value();
       summary_.evaluated = summary_.evaluated || value.known;
-      if (holds_ && !value.holds()) end(ps);
+      if (holds_ && !value.holds()) end(only_events_end() ? before_ps_ : ps);
       if (value.holds()) begin(ps);
     }
+    before_ps_ = ps;
     return !stopped_;
+  }
+  /// Nothing happened but that events are over, which they were with their instant.
+  bool only_events_end() const {
+    if (watch_.is_clocked()) return false;
+    const auto& changed = replay_.changed();
+    return std::none_of(changed.begin(), changed.end(), [&](Replay::Slot slot) {
+      const bool is_over =
+          file_.variable(replay_.variable(slot)).is_event && replay_.bits(slot) == 0;
+      return watch_.uses(slot) && !is_over;
+    });
   }
   void begin(std::uint64_t ps) {
     if (!holds_) now_ = {std::max(ps, options_.from_ps), 0, 0, false};
@@ -163,12 +178,14 @@ class Finder final : public Replay::Listener {
     stopped_ = !take_(now_);
   }
 
+  const TraceFile& file_;
   const FindOptions& options_;
   const std::function<bool(const Occurrence&)>& take_;
   Replay replay_;
   Watch watch_;
   FindSummary summary_;
   Occurrence now_;
+  std::uint64_t before_ps_ = 0;  ///< the last instant
   bool holds_ = false, stopped_ = false;
 };
 
@@ -187,6 +204,7 @@ class Reporter final : public Replay::Listener {
     replay_.keep_texts();
     for (const std::string& name : options.signals)
       slots_.push_back(replay_.watch(vp::find_path(name, file.paths(), "values: ")));
+    occurred_ps_.resize(slots_.size());
   }
 
   /// False: nothing more is asked for.
@@ -206,6 +224,7 @@ class Reporter final : public Replay::Listener {
   bool instant(std::uint64_t ps) override {
     if (!times_.empty()) {
       rows_until(ps, true);
+      note_events(ps);
       return next_ < times_.size() && !stopped_;
     }
     if (ps >= options_.to_ps) return false;
@@ -220,10 +239,22 @@ class Reporter final : public Replay::Listener {
   void rows_until(std::uint64_t ps, bool before) {
     while (next_ < times_.size() && times_[next_] < ps && !stopped_) row(times_[next_++], before);
   }
+  /// An event has no value that stands: it is 1 at its time only.
+  void note_events(std::uint64_t ps) {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      const bool is_event = file_.variable(replay_.variable(slots_[i])).is_event;
+      if (is_event && replay_.bits(slots_[i]) != 0) occurred_ps_[i] = ps;
+    }
+  }
   void row(std::uint64_t ps, bool before) {
     ValueRow row{ps, {}};
-    for (const Replay::Slot slot : slots_) {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      const Replay::Slot slot = slots_[i];
       const vp::WaveVariable& variable = file_.variable(replay_.variable(slot));
+      if (occurred_ps_[i] == ps) {
+        row.values.emplace_back("1");
+        continue;
+      }
       const std::string& text = before ? replay_.text_before(slot) : replay_.text(slot);
       const auto kind = before ? replay_.kind_before(slot) : replay_.kind(slot);
       row.values.push_back(shown_value(file_, variable, text, kind));
@@ -237,6 +268,7 @@ class Reporter final : public Replay::Listener {
   Replay replay_;
   Watch watch_;
   std::vector<Replay::Slot> slots_;
+  std::vector<std::optional<std::uint64_t>> occurred_ps_;  ///< of events, by signal
   std::vector<std::uint64_t> times_;
   std::size_t next_ = 0;
   bool held_ = false, stopped_ = false;

@@ -2,22 +2,19 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <trace/replay.h>
+#include <trace/window.h>
 #include <vp/expression.h>
 
 namespace platform::trace {
 
 /// Where and how a condition is looked for.
-struct FindOptions {
+struct FindOptions : Window {
   std::string condition;
   std::optional<ClockEdge> every;  ///< looked at on these edges only, with the values before them
-  std::uint64_t from_ps = 0;
-  std::uint64_t to_ps = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// A stretch of time in which a condition holds.
@@ -40,13 +37,11 @@ FindSummary find(TraceFile& file, const FindOptions& options,
                  const std::function<bool(const Occurrence&)>& take);
 
 /// Which values are asked for.
-struct ValuesOptions {
+struct ValuesOptions : Window {
   std::vector<std::string> signals;
   std::vector<std::uint64_t> at_ps;  ///< these times, or
   std::string when;                  ///< each time that this comes true, or
   std::optional<ClockEdge> every;    ///< each edge; with `when` those at which it holds
-  std::uint64_t from_ps = 0;
-  std::uint64_t to_ps = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// A time and the values of all signals at it, as people write them.

@@ -1,11 +1,11 @@
 #include <trace/recording.h>
 
-#include <vp/error.h>
-#include <vp/unit.h>
+#include <vp/frame_gate.h>
+#include <vp/varint.h>
 
 #include <algorithm>
 #include <optional>
-#include <unordered_map>
+#include <utility>
 
 namespace platform::trace {
 
@@ -16,55 +16,41 @@ using Kind = vp::WaveVariable::Kind;
 /// What a picture has room for.
 constexpr std::size_t longest_word = 64;
 
-/// The state of a bit as a recording has it.
+/// The state of a bit as a recording has it; a weak one is what it drives to.
 std::uint64_t state_of(std::string_view digit) {
-  if (digit == "0" || digit == "l") return 0;
-  if (digit == "1" || digit == "h") return 1;
-  return digit == "z" ? 3 : 2;
+  if (digit == "l") return 0;
+  if (digit == "h") return 1;
+  constexpr std::uint64_t unknown = 2;
+  const auto place = Recording::states.find(digit);
+  return place == std::string_view::npos ? unknown : place;
 }
 
-class Recorder final : public vp::WaveHandler {
+class Recorder final : private WindowReader {
  public:
   Recorder(TraceFile& file, const RecordingOptions& options)
-      : file_(file), options_(options), nets_(file.reader().nets()) {
+      : WindowReader(file, options), options_(options), nets_(file.reader().nets()) {
     for (const std::string& name : options.signals)
       add(vp::find_path(name, file.paths(), "plot: "));
     if (!options.signals.empty()) return;
-    options.filter.check(file.paths(), {});
-    for (std::uint32_t i = 0; i < file.paths().size(); ++i) {
-      if (options.filter.selects(file.paths()[i])) add(i);
-    }
+    for (std::uint32_t i = 0; i < file.paths().size(); ++i) add(i);
   }
 
   Recording run() {
-    vp::WaveReader& reader = file_.reader();
-    if (options_.from_ps > 0) {
-      if (const auto entry = reader.entry(options_.from_ps)) reader.enter(*entry);
-    }
-    reader.read(*this);
-    if (!first_) throw vp::InputError("trace '" + file_.name() + "' has no values");
-    if (*first_ >= options_.to_ps) {
-      throw vp::InputError("trace '" + file_.name() + "' begins at " + vp::format_time(*first_) +
-                           ", after the window ends");
-    }
-    if (now_ps_ < options_.from_ps) {
-      throw vp::InputError("trace '" + file_.name() + "' ends at " + vp::format_time(now_ps_) +
-                           ", before the window begins");
-    }
-    begin();
-    result_.to_ps = std::max(std::min(now_ps_, options_.to_ps), result_.from_ps + 1);
+    read();
+    result_.to_ps = std::max(now().first, result_.from_ps + 1);
+    end_pulses();
     finish();
     return std::move(result_);
   }
 
  private:
   struct Net {
-    std::int64_t signal = -1;         ///< place among the signals; -1: not asked for
+    std::int64_t signal = -1;  ///< place among the signals; -1: not asked for
+    bool is_event = false;
     bool dropped = false;             ///< there is no room for its changes
     std::optional<std::string> last;  ///< its value
     Kind kind = Kind::bits;           ///< of `last`
     std::uint64_t last_ps = 0;        ///< of its last change that was kept
-    std::unordered_map<std::string, std::uint64_t> place_of_word;
   };
 
   void add(std::uint32_t i) {
@@ -84,6 +70,8 @@ class Recorder final : public vp::WaveHandler {
                       ? Recording::Form::bit
                       : Recording::Form::words;
     if (net.signal < 0) {
+      net.is_event = variable.is_event;
+      if (net.is_event) net.last = "0";
       net.signal = static_cast<std::int64_t>(result_.signals.size());
       file_.reader().select(variable.net);
     }
@@ -91,61 +79,56 @@ class Recorder final : public vp::WaveHandler {
     result_.signals.push_back(std::move(signal));
   }
 
-  bool at(std::uint64_t ps) override {
-    if (!first_) first_ = ps;
-    if (ps >= options_.to_ps) {
-      now_ps_ = options_.to_ps;
-      return false;
-    }
-    if (ps > options_.from_ps) begin();
-    now_ps_ = ps;
-    return true;
-  }
-  void change(std::uint32_t number, const vp::WaveValue& value) override {
-    Net& net = nets_[number];
-    if (net.dropped) return;
-    const bool is_event = is_event_of(net);
-    if (is_event && now_ps_ < options_.from_ps) return;  // it is over when the window begins
-    if (!is_event && net.last && net.kind == value.kind && *net.last == value.text) return;
-    net.last = std::string(value.text);
-    net.kind = value.kind;
-    if (begun_) keep(net, now_ps_);
-  }
-
-  bool is_event_of(const Net& net) const {
-    return file_.variable(variable_of_[place(net)]).is_event;
-  }
-  static std::size_t place(const Net& net) { return static_cast<std::size_t>(net.signal); }
-
-  /// The values that are there at the window's start come first.
-  void begin() {
-    if (begun_) return;
-    begun_ = true;
-    result_.from_ps = std::max(options_.from_ps, *first_);
+  void begin(Moment start) override {
+    result_.from_ps = start.first;
     for (Net& net : nets_) {
       net.last_ps = result_.from_ps;
       if (net.signal >= 0 && net.last) keep(net, result_.from_ps);
     }
   }
+  void reach(Moment now) override {
+    if (now.first > pulse_ps_) end_pulses();
+  }
+  void change(std::uint32_t number, const vp::WaveValue& value) override {
+    Net& net = nets_[number];
+    if (net.dropped || (net.is_event && (value.bits == 0 || !is_inside()))) return;
+    if (net.last && net.kind == value.kind && *net.last == value.text) return;
+    net.last = std::string(value.text);
+    net.kind = value.kind;
+    if (net.is_event) {
+      pulses_.push_back(number);
+      pulse_ps_ = now().first;
+    }
+    if (begun()) keep(net, now().first);
+  }
+  /// An event has no value that stands.
+  void end_pulses() {
+    for (const std::uint32_t number : std::exchange(pulses_, {})) {
+      Net& net = nets_[number];
+      if (net.dropped) continue;
+      net.last = "0";
+      keep(net, pulse_ps_ + 1);
+    }
+  }
+  static std::size_t place(const Net& net) { return static_cast<std::size_t>(net.signal); }
+
   void keep(Net& net, std::uint64_t ps) {
     Recording::Signal& signal = result_.signals[place(net)];
     const std::uint64_t delta = ps - std::exchange(net.last_ps, ps);
-    if (signal.form == Recording::Form::bit && net.kind == Kind::bits) {
-      append_number(signal.changes, delta << 2 | state_of(*net.last));
+    if (signal.form == Recording::Form::bit) {
+      const std::string_view state = net.kind == Kind::bits ? std::string_view(*net.last) : "x";
+      vp::put_varint(signal.changes, delta << 3 | state_of(state));
     } else {
-      append_number(signal.changes, signal.form == Recording::Form::bit ? delta << 2 | 2 : delta);
-      if (signal.form != Recording::Form::bit) append_number(signal.changes, word(net, signal));
+      vp::put_varint(signal.changes, delta);
+      vp::put_varint(signal.changes, signal.words.place(word(net)));
     }
     ++signal.count;
     if (++kept_ > options_.most_changes) drop_one();
   }
-  std::uint64_t word(Net& net, Recording::Signal& signal) {
+  std::string word(const Net& net) const {
     const vp::WaveVariable& variable = file_.variable(variable_of_[place(net)]);
-    std::string text = shown_value(file_, variable, *net.last, net.kind);
-    if (text.size() > longest_word) text = text.substr(0, longest_word) + "…";
-    const auto [known, is_new] = net.place_of_word.emplace(std::move(text), signal.words.size());
-    if (is_new) signal.words.push_back(known->first);
-    return known->second;
+    const std::string text = shown_value(file_, variable, *net.last, net.kind);
+    return text.size() > longest_word ? text.substr(0, longest_word) + "…" : text;
   }
   /// Leaves out the signal that changes most: a clock, as a rule.
   void drop_one() {
@@ -158,9 +141,8 @@ class Recorder final : public vp::WaveHandler {
     Recording::Signal& signal = result_.signals[place(*most)];
     kept_ -= signal.count;
     most->dropped = true;
-    most->place_of_word.clear();
     signal.changes = {};
-    signal.words.clear();
+    signal.words = {};
   }
   /// Takes out the signals that were dropped, and their other names.
   void finish() {
@@ -169,7 +151,7 @@ class Recorder final : public vp::WaveHandler {
     for (std::size_t i = 0; i < result_.signals.size(); ++i) {
       Recording::Signal& signal = result_.signals[i];
       if (nets_[file_.variable(variable_of_[i]).net].dropped) {
-        ++result_.left_out;
+        ++result_.dropped;
         continue;
       }
       if (signal.same_as >= 0) signal.same_as = place_of[static_cast<std::size_t>(signal.same_as)];
@@ -179,23 +161,16 @@ class Recorder final : public vp::WaveHandler {
     result_.signals = std::move(kept);
   }
 
-  TraceFile& file_;
   const RecordingOptions& options_;
   std::vector<Net> nets_;
   std::vector<std::uint32_t> variable_of_;  ///< by signal
   Recording result_;
-  std::optional<std::uint64_t> first_;
-  std::uint64_t now_ps_ = 0;
+  std::vector<std::uint32_t> pulses_;  ///< nets that are events and occur at `pulse_ps_`
+  std::uint64_t pulse_ps_ = 0;
   std::size_t kept_ = 0;
-  bool begun_ = false;
 };
 
 }  // namespace
-
-void append_number(std::string& bytes, std::uint64_t number) {
-  for (; number >= 0x80; number >>= 7) bytes += static_cast<char>(number | 0x80);
-  bytes += static_cast<char>(number);
-}
 
 Recording recording(TraceFile& file, const RecordingOptions& options) {
   return Recorder(file, options).run();

@@ -1,22 +1,16 @@
 #include <trace/replay.h>
 
 #include <gic_registers.h>
-#include <trace/tools.h>
 #include <vp/error.h>
 #include <vp/file.h>
 #include <vp/frame_gate.h>
 #include <vp/text.h>
-#include <vp/unit.h>
-#include <vp/wave_writer.h>
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <map>
-#include <memory>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 
 namespace platform::trace {
 
@@ -100,8 +94,10 @@ Replay::Slot Replay::watch(std::uint32_t variable) {
     const bool has_words = words || v.kind == vp::WaveVariable::Kind::text;
     State state{variable, false, v.is_event, has_words, words, {}, {}};
     state.now.kind = state.before.kind = v.kind;
-    // An event that has not occurred did not occur.
-    state.now.known = state.before.known = v.is_event;
+    if (v.is_event) {  // one that has not occurred did not occur
+      state.now.known = state.before.known = true;
+      state.now.text = state.before.text = "0";
+    }
     slots_.push_back(state);
   }
   return static_cast<Slot>(slot_of_net_[v.net]);
@@ -142,6 +138,8 @@ void Replay::run(Listener& listener) {
 
 bool Replay::at(std::uint64_t ps) {
   if (started_ && !finish_instant()) return false;
+  stopped_ = ps >= to_ps_;
+  if (stopped_) return false;
   if (!started_) first_ps_ = ps;
   started_ = true;
   now_ps_ = ps;
@@ -151,8 +149,10 @@ bool Replay::at(std::uint64_t ps) {
 bool Replay::finish_instant() {
   stopped_ = !listener_->instant(now_ps_);
   // An event lasts for its instant: the next one is one, too.
-  for (const Slot slot : events_) slots_[slot].now.bits = 0;
-  events_.clear();
+  for (const Slot slot : events_) {
+    slots_[slot].now.bits = 0;
+    slots_[slot].now.text = "0";
+  }
   for (const Slot slot : changed_) {
     State& state = slots_[slot];
     state.touched = false;
@@ -165,6 +165,10 @@ bool Replay::finish_instant() {
     }
   }
   changed_.clear();
+  // In the next instant it is over, which may be news to a condition.
+  for (const Slot slot : events_) changed_.push_back(slot);
+  for (const Slot slot : events_) slots_[slot].touched = true;
+  events_.clear();
   return !stopped_;
 }
 
@@ -174,7 +178,7 @@ void Replay::change(std::uint32_t net, const vp::WaveValue& value) {
   if (!state.touched) changed_.push_back(slot);
   state.touched = true;
   if (state.is_event) {
-    if (value.bits == 0) return;
+    if (value.bits == 0 || state.now.bits != 0) return;
     events_.push_back(slot);
   }
   state.now.kind = value.kind;
@@ -235,138 +239,6 @@ bool InterruptLine::rises() {
     }
   }
   return true;
-}
-
-namespace {
-
-using Kind = vp::WaveVariable::Kind;
-using Writer = vp::WaveWriter;
-
-class Cutter final : public vp::WaveHandler {
- public:
-  Cutter(TraceFile& file, const std::string& to, const CutOptions& options)
-      : file_(file), options_(options), ids_(file.reader().nets()), last_(file.reader().nets()) {
-    options.filter.check(file.paths(), {});
-    writer_ = vp::open_wave_writer(to);
-    if (file.reader().timescale_fs() % fs_per_ps != 0) {
-      per_ps_ = fs_per_ps;
-      writer_->count_femtoseconds();
-    }
-    for (std::uint32_t i = 0; i < file.paths().size(); ++i) {
-      if (options.filter.selects(file.paths()[i])) add(i);
-    }
-    if (net_of_id_.empty())
-      throw vp::InputError("trace '" + file.name() + "': the signals have no bits");
-  }
-
-  bool at(std::uint64_t ps) override {
-    if (!first_) first_ = steps(ps, file_.reader().below_ps());
-    if (ps >= options_.to_ps) {
-      end_ = steps(options_.to_ps, 0);
-      return false;
-    }
-    const std::uint64_t now = steps(ps, file_.reader().below_ps());
-    if (begun_ || now > start()) begin();
-    if (begun_) writer_->set_time(now);
-    now_ps_ = ps;
-    end_ = now;
-    return true;
-  }
-  void change(std::uint32_t net, const vp::WaveValue& value) override {
-    if (begun_) {
-      write(net, value);
-    } else {
-      last_[net] = fitting(net, value);
-    }
-  }
-  void finish() {
-    if (!first_) throw vp::InputError("trace '" + file_.name() + "' has no values");
-    if (!begun_ && now_ps_ < options_.from_ps) {
-      throw vp::InputError("trace '" + file_.name() + "' ends at " + vp::format_time(now_ps_) +
-                           ", before the window begins");
-    }
-    if (!begun_ && *first_ >= steps(options_.to_ps, 0)) {
-      throw vp::InputError("trace '" + file_.name() + "' has nothing before " +
-                           vp::format_time(options_.to_ps) + ", the end of the window");
-    }
-    begin();
-    writer_->close(std::max(end_, start()));
-  }
-
- private:
-  static constexpr std::uint64_t fs_per_ps = 1000;
-
-  void add(std::uint32_t i) {
-    const vp::WaveVariable& variable = file_.variable(i);
-    if (variable.width == 0) return;
-    file_.reader().select(variable.net);
-    const auto kind = variable.is_event             ? Writer::Kind::event
-                      : variable.kind == Kind::real ? Writer::Kind::real
-                      : variable.kind == Kind::text ? Writer::Kind::text
-                                                    : Writer::Kind::wire;
-    try {
-      ids_[variable.net].push_back(writer_->add(file_.paths()[i], kind, variable.width));
-    } catch (const std::invalid_argument& error) {
-      throw vp::InputError("trace '" + file_.name() + "': " + error.what());
-    }
-    net_of_id_.push_back(variable.net);
-    if (kind_of_net_.size() <= variable.net) kind_of_net_.resize(variable.net + 1);
-    kind_of_net_[variable.net] = variable.kind;
-  }
-
-  /// A time as the writer counts it: ps, or fs.
-  std::uint64_t steps(std::uint64_t ps, unsigned below_ps) const {
-    const auto wide = static_cast<unsigned __int128>(ps) * per_ps_ + (per_ps_ == 1 ? 0 : below_ps);
-    constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-    return wide > most ? most : static_cast<std::uint64_t>(wide);
-  }
-  /// A trace of a window has nothing before its first instant.
-  std::uint64_t start() const { return std::max(steps(options_.from_ps, 0), first_.value_or(0)); }
-  /// With the values that stand at the window's start.
-  void begin() {
-    if (begun_) return;
-    begun_ = true;
-    Writer::WrittenValues values;
-    for (const std::uint32_t net : net_of_id_) values.push_back(last_[net]);
-    writer_->begin_written(start(), values);
-  }
-  /// Words in a vector of bits fit in no file of ours.
-  std::string fitting(std::uint32_t net, const vp::WaveValue& value) const {
-    if (value.kind == kind_of_net_[net]) return std::string(value.text);
-    throw vp::InputError("trace '" + file_.name() + "' at " + vp::format_time(now_ps_) +
-                         ": a signal has the value '" + std::string(value.text) +
-                         "', which is not of its type: leave it out with cut --filter");
-  }
-  void write(std::uint32_t net, const vp::WaveValue& value) {
-    if (value.kind != kind_of_net_[net]) fitting(net, value);
-    for (const Writer::Id id : ids_[net]) {
-      if (value.kind == Kind::text) {
-        writer_->change_text(id, value.text);
-      } else {
-        writer_->change_digits(id, value.text);
-      }
-    }
-  }
-
-  TraceFile& file_;
-  CutOptions options_;
-  std::unique_ptr<Writer> writer_;
-  std::uint64_t per_ps_ = 1;                  ///< steps of the writer's time
-  std::vector<std::vector<Writer::Id>> ids_;  ///< by net: a net may have several names
-  std::vector<Kind> kind_of_net_;
-  std::vector<std::uint32_t> net_of_id_;
-  std::vector<std::optional<std::string>> last_;  ///< by net, before the window
-  bool begun_ = false;
-  std::optional<std::uint64_t> first_;  ///< in the writer's steps
-  std::uint64_t now_ps_ = 0, end_ = 0;
-};
-
-}  // namespace
-
-void cut(TraceFile& file, const std::string& to, const CutOptions& options) {
-  Cutter cutter(file, to, options);
-  file.reader().read(cutter);
-  cutter.finish();
 }
 
 }  // namespace platform::trace

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -78,10 +80,12 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   /// Follows the signal a user wrote: see vp::find_path().
   Slot watch(const std::string& name);
 
+  /// Nothing from then on is played: the trace ends there.
+  void end_at(std::uint64_t ps) { to_ps_ = ps; }
   void run(Listener& listener);
 
   std::uint64_t first_ps() const { return first_ps_; }
-  std::uint64_t last_ps() const { return file_.reader().now_ps(); }
+  std::uint64_t last_ps() const { return std::min(file_.reader().now_ps(), to_ps_); }
   /// Slots that were written in this instant.
   const std::vector<Slot>& changed() const { return changed_; }
 
@@ -135,6 +139,7 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   bool stopped_ = false;
   std::uint64_t first_ps_ = 0;
   std::uint64_t now_ps_ = 0;
+  std::uint64_t to_ps_ = std::numeric_limits<std::uint64_t>::max();
   std::vector<int> slot_of_net_;
   std::vector<State> slots_;
   std::vector<Slot> changed_;

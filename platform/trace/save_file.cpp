@@ -204,14 +204,17 @@ std::string save_file_text(const SaveFile& save) {
   return text;
 }
 
+std::uint64_t steps_of(std::uint64_t ps, std::uint64_t timescale_fs) {
+  constexpr unsigned fs_per_ps = 1000;
+  return static_cast<std::uint64_t>(static_cast<unsigned __int128>(ps) * fs_per_ps / timescale_fs);
+}
+
 std::string surfer_commands(const SaveFile& save) {
   std::string text;
   for (const SaveFile::Line& line : save.lines)
     text += (line.title ? "divider_add " : "variable_add ") + line.path + "\n";
   if (!save.marker_ps) return text + "zoom_fit\n";
-  // In steps of the file's time.
-  const auto steps = static_cast<unsigned __int128>(*save.marker_ps) * 1000 / save.timescale_fs;
-  return text + "cursor_set " + std::to_string(static_cast<std::uint64_t>(steps)) +
+  return text + "cursor_set " + std::to_string(steps_of(*save.marker_ps, save.timescale_fs)) +
          "\ngoto_cursor\n";
 }
 

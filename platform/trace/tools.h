@@ -11,6 +11,7 @@
 
 #include <trace/replay.h>
 #include <trace/vocabulary.h>
+#include <trace/window.h>
 #include <vp/expression.h>
 #include <vp/frame_gate.h>
 
@@ -45,9 +46,7 @@ struct Difference {
 /// no signal in common, or lack the frame signal.
 Difference difference(TraceFile& a, TraceFile& b, const DifferenceOptions& options = {});
 
-struct CutOptions {
-  std::uint64_t from_ps = 0;
-  std::uint64_t to_ps = std::numeric_limits<std::uint64_t>::max();
+struct CutOptions : Window {
   vp::TraceFilter filter;
 };
 
@@ -119,6 +118,8 @@ struct SaveFile {
 };
 
 std::string save_file_text(const SaveFile& save);
+/// A time in steps of a file, as other viewers count it.
+std::uint64_t steps_of(std::uint64_t ps, std::uint64_t timescale_fs);
 /// The same as commands for Surfer (`surfer TRACE --command-file FILE.sucl`): its state files
 /// change with every version.
 std::string surfer_commands(const SaveFile& save);

@@ -114,8 +114,8 @@ class Diagram final : public Replay::Listener {
     if (lane.is_bit) {
       // WaveDrom has no sign for the weak and unset states of VHDL.
       lane.wave += value == "0" || value == "1" || value == "z" ? value : "x";
-    } else if (value == "x") {
-      lane.wave += 'x';
+    } else if (value == "x" || value == "z") {
+      lane.wave += value;
     } else {
       lane.wave += '=';
       lane.data.push_back(value);

@@ -115,6 +115,41 @@ BOOST_AUTO_TEST_CASE(each_check_that_fails_has_a_page_with_what_is_around_it) {
              "divider_add Beside\nvariable_add top.a.other\ncursor_set 20\ngoto_cursor\n");
 }
 
+BOOST_AUTO_TEST_CASE(pages_of_similar_names_stay_apart_and_lie_where_it_is_said) {
+  kit::write_file(*this / "t.vcd",
+                  "$timescale 10ns $end\n$var wire 1 ! x $end\n$enddefinitions $end\n"
+                  "#0 0! #10 1! #20 0!\n");
+  kit::write_file(*this / "t.checks", "first: never x == 0\na b: never x\na_b: never x rises\n");
+  std::filesystem::create_directory(*this / "sub");
+  const kit::Outcome outcome = ask({"check", "t.checks", "t.vcd", "-o", "sub/p.sucl"});
+  BOOST_TEST(outcome.exit_code == 1, outcome.err);
+  BOOST_TEST(outcome.out.find("the others have pages of their own: sub/p.CHECK.gtkw\n") !=
+             std::string::npos);
+  const std::array<std::string, 3> names{"sub/p", "sub/p.a_b", "sub/p.a_b_2"};
+  const std::array<std::string, 3> checks_of{"first: ", "a b: ", "a_b: "};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    BOOST_TEST(kit::read_file(*this / (names[i] + ".gtkw")).find(checks_of[i]) !=
+               std::string::npos);
+    BOOST_TEST(kit::read_file(*this / (names[i] + ".sucl")).find("divider_add Check") == 0u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_page_takes_a_moment_and_no_clock) {
+  kit::write_file(*this / "t.vcd",
+                  "$timescale 10ns $end\n$var wire 1 ! x $end\n$enddefinitions $end\n"
+                  "#0 0! #10 1! #20 0!\n");
+  const kit::Outcome page = ask({"plot", "t.vcd", "--marker", "100ns", "-o", "t.html"});
+  BOOST_TEST_REQUIRE(page.exit_code == 0, page.err);
+  BOOST_TEST(kit::read_file(*this / "t.html").find("\"cursor\":100000") != std::string::npos);
+  const kit::Outcome refused = ask({"plot", "t.vcd", "x", "--every", "x", "-o", "u.html"});
+  BOOST_TEST(refused.exit_code == 2);
+  BOOST_TEST(refused.err.find("--every makes a timing diagram") != std::string::npos);
+  BOOST_TEST(!std::filesystem::exists(*this / "u.html"));
+  const kit::Outcome alone = ask({"view", "t.vcd", "--at", "100ns", "--port", "1"});
+  BOOST_TEST(alone.exit_code == 2);
+  BOOST_TEST(alone.err.find("no viewer listens on port 1") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_run_does_not_differ_from_itself_but_from_another) {
   record({"z1.0", "--trace-filter", "pl.feature_packaging"});
   std::filesystem::rename(*this / "t.vcd", *this / "a.vcd");

@@ -62,14 +62,4 @@ inline void put_u64(std::string& to, std::uint64_t value) {
   for (int shift = 56; shift >= 0; shift -= 8) to += static_cast<char>(value >> shift);
 }
 
-inline void put_varint(std::string& to, std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) to += static_cast<char>(value | 0x80);
-  to += static_cast<char>(value);
-}
-
-inline void put_signed_varint(std::string& to, std::int64_t value) {
-  for (; value < -64 || value > 63; value >>= 7) to += static_cast<char>(value | 0x80);
-  to += static_cast<char>(value & 0x7f);
-}
-
 }  // namespace vp::fst

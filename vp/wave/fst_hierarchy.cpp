@@ -1,5 +1,5 @@
 #include <limits>
-#include <optional>
+#include <utility>
 
 #include "fst_reader.h"
 
@@ -104,6 +104,7 @@ void FstReader::read_variable(std::uint8_t type, fst::Cursor& cursor, const Scop
   variable.kind = net.kind;
   variable.width = net.width;
   variable.is_event = type == fst::event;
+  net.is_event = net.is_event || variable.is_event;
   variable.enumeration = enumerations_.take();
   take_range(declared);
   if (scope.is_array) declared.may_join = false;

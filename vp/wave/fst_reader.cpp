@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "wave_input.h"
 
@@ -41,25 +42,26 @@ std::string FstReader::remark() const {
   file_.fail("the changes of a signal are corrupt", file_.changes()[block_ - 1].at);
 }
 
-std::uint64_t FstReader::block_before(std::uint64_t steps) const {
-  std::uint64_t block = 0;
-  for (std::size_t next = 1; next < file_.changes().size(); ++next, ++block) {
-    const fst::File::Section& section = file_.changes()[next];
-    const std::string start = file_.read(section.at, sizeof steps);
-    if (fst::Cursor(file_, start, section.at, "block of changes").u64() > steps) break;
+std::uint64_t FstReader::block_before(std::uint64_t steps) {
+  if (starts_.empty()) {
+    for (const fst::File::Section& section : file_.changes()) {
+      const std::string start = file_.read(section.at, sizeof steps);
+      starts_.push_back(fst::Cursor(file_, start, section.at, "block of changes").u64());
+    }
   }
-  return block;
+  const auto after = std::upper_bound(starts_.begin(), starts_.end(), steps);
+  return after == starts_.begin() ? 0 : static_cast<std::uint64_t>(after - starts_.begin()) - 1;
 }
 
 void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler) {
-  if (entry_) {
+  bool entered = entry_.has_value();
+  if (entered) {
     block_ = *std::exchange(entry_, std::nullopt);
     // The first values of a block leave out texts.
     for (std::size_t net = 0; net < nets_.size(); ++net) {
       if (selected[net] && nets_[net].kind == WaveVariable::Kind::text) block_ = 0;
     }
     open_ = false;
-    entered_ = true;
   }
   for (;;) {
     if (open_) {
@@ -67,13 +69,14 @@ void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHand
       open_ = false;
     }
     if (block_ == file_.changes().size()) break;
-    open_block(file_.changes()[block_++], selected);
+    open_block(file_.changes()[block_++], selected, std::exchange(entered, false));
   }
   const std::uint64_t end = file_.is_finished() ? file_.end_time() : block_end_;
   if (!file_.changes().empty() && end > block_end_) at(end);
 }
 
-void FstReader::open_block(const fst::File::Section& section, const std::vector<bool>& selected) {
+void FstReader::open_block(const fst::File::Section& section, const std::vector<bool>& selected,
+                           bool entered) {
   constexpr std::uint64_t fixed = 24, longest_numbers = 4 * 10 + 1;
   const std::uint64_t table_end = read_times(section);
   const std::string head = file_.read(section.at, std::min(section.size, fixed + longest_numbers));
@@ -85,7 +88,6 @@ void FstReader::open_block(const fst::File::Section& section, const std::vector<
   cursor.varint();  // handles in the frame
   const std::uint64_t frame_at = cursor.offset();
   if (packed > section.end() - frame_at) cursor.fail("is shorter than its first values");
-  const bool entered = std::exchange(entered_, false);
   frame_due_ = block_ == 1 || entered;
   if (frame_due_) frame_ = file_.read_packed(frame_at, packed, unpacked);
 
@@ -274,7 +276,8 @@ bool FstReader::hand_over_block(const Time& at, const std::vector<bool>& selecte
   return true;
 }
 
-/// The values at the start of a block. What is unknown in the first has no value yet.
+/// The values at the start of a block. What is unknown in the first has no value yet; an event of
+/// an earlier block is over.
 void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& handler) {
   const std::string_view frame = frame_;
   std::size_t at = 0;
@@ -285,8 +288,8 @@ void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& 
     if (size > frame.size() - at) return;  // it was declared later
     const std::string_view value = frame.substr(at, size);
     at += size;
-    if (!selected[net]) continue;
     const bool first = block_ == 1;
+    if (!selected[net] || (nets_[net].is_event && !first)) continue;
     double real = 0;
     if (is_real) {
       std::uint64_t bits = 0;

@@ -23,6 +23,7 @@ class FstReader {
     WaveVariable::Kind kind;
     unsigned width;  ///< bits; 1 of a real or text
     bool is_port;    ///< of an extended VCD: its values are states and two strengths for each bit
+    bool is_event = false;
     /// Characters of a value that is written as it is.
     std::size_t length() const { return is_port ? std::size_t{width} * 3 + 2 : width; }
   };
@@ -42,7 +43,7 @@ class FstReader {
   std::string remark() const;
 
   /// The last block that is not after `steps`.
-  std::uint64_t block_before(std::uint64_t steps) const;
+  std::uint64_t block_before(std::uint64_t steps);
   /// The next read() begins with the values at the start of a block, or of an earlier one.
   void enter(std::uint64_t block) { entry_ = block; }
   /// Hands over the changes of the selected nets, from where the last call stopped to the end or
@@ -68,7 +69,9 @@ class FstReader {
   };
   void read_variable(std::uint8_t type, fst::Cursor& cursor, const Scope& scope, bool has_geometry);
 
-  void open_block(const fst::File::Section& section, const std::vector<bool>& selected);
+  /// `entered`: nothing was read before it.
+  void open_block(const fst::File::Section& section, const std::vector<bool>& selected,
+                  bool entered);
   /// Returns where the table of chains ends.
   std::uint64_t read_times(const fst::File::Section& section);
   std::vector<Place> read_places(const fst::File::Section& section, std::uint64_t changes_at,
@@ -99,8 +102,8 @@ class FstReader {
   std::size_t instant_ = 0;  ///< its time was handed over if `announced_`
   bool announced_ = false;
   bool frame_due_ = false;  ///< the block's first values were not handed over
-  bool entered_ = false;    ///< the next block is the first to be read
   std::optional<std::uint64_t> entry_;
+  std::vector<std::uint64_t> starts_;  ///< times of the blocks, once they are asked for
   std::uint64_t block_start_ = 0, block_end_ = 0;
   std::vector<std::uint64_t> times_;
   std::string frame_;

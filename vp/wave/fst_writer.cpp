@@ -1,6 +1,7 @@
 #include <lz4.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/varint.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -167,7 +168,7 @@ void FstWriter::set_time(std::uint64_t ps) {
     begin_block();
   }
   ++instants_;
-  fst::put_varint(times_, ps - time_ps_);
+  put_varint(times_, ps - time_ps_);
   time_ps_ = ps;
 }
 
@@ -181,12 +182,12 @@ void FstWriter::emit_bits(Variable& variable) {
   std::string& chain = variable.chain;
   const std::size_t before = chain.size();
   if (variable.kind == Kind::real) {
-    fst::put_varint(chain, delta(variable, 1) | 1);
+    put_varint(chain, delta(variable, 1) | 1);
     chain.append(reinterpret_cast<const char*>(&variable.bits), sizeof variable.bits);
   } else if (variable.width == 1) {
-    fst::put_varint(chain, delta(variable, 2) | variable.bits << 1);
+    put_varint(chain, delta(variable, 2) | variable.bits << 1);
   } else {
-    fst::put_varint(chain, delta(variable, 1));
+    put_varint(chain, delta(variable, 1));
     const unsigned bytes = (variable.width + 7) / 8;
     if (bytes > 8) {
       // The bits end somewhere in the last byte: those of the low 64 spread over nine.
@@ -207,9 +208,9 @@ void FstWriter::emit_digits(Variable& variable) {
   const std::size_t before = chain.size();
   if (variable.width == 1 && variable.kind != Kind::real) {
     const auto letter = std::min(fst::letters.find(variable.digits.front()), std::size_t{7});
-    fst::put_varint(chain, delta(variable, 4) | letter << 1 | 1);
+    put_varint(chain, delta(variable, 4) | letter << 1 | 1);
   } else if (variable.digits.find_first_not_of("01") == std::string::npos) {
-    fst::put_varint(chain, delta(variable, 1));
+    put_varint(chain, delta(variable, 1));
     for (std::size_t at = 0; at < variable.digits.size(); at += 8) {
       std::uint8_t byte = 0;
       for (std::size_t i = at; i < std::min(at + 8, variable.digits.size()); ++i) {
@@ -218,7 +219,7 @@ void FstWriter::emit_digits(Variable& variable) {
       chain += static_cast<char>(byte);
     }
   } else {
-    fst::put_varint(chain, delta(variable, 1) | 1);
+    put_varint(chain, delta(variable, 1) | 1);
     chain += variable.digits;
   }
   pending_ += chain.size() - before;
@@ -268,8 +269,8 @@ void FstWriter::change_digits(Id id, std::string_view digits) {
 void FstWriter::change_text(Id id, std::string_view text) {
   Variable& variable = variables_[id];
   const std::size_t before = variable.chain.size();
-  fst::put_varint(variable.chain, delta(variable, 1));
-  fst::put_varint(variable.chain, text.size());
+  put_varint(variable.chain, delta(variable, 1));
+  put_varint(variable.chain, text.size());
   variable.chain += text;
   pending_ += variable.chain.size() - before;
 }
@@ -339,7 +340,7 @@ void FstWriter::begin_block() {
   block_start_ps_ = time_ps_;
   frame_ = frame();
   times_.clear();
-  fst::put_varint(times_, time_ps_);
+  put_varint(times_, time_ps_);
   instants_ = 0;
   pending_ = 0;
   for (Variable& variable : variables_) {
@@ -361,15 +362,15 @@ std::string FstWriter::chains(std::string& table, std::uint64_t& unpacked) const
       ++without;
       continue;
     }
-    if (without != 0) fst::put_varint(table, std::exchange(without, 0) << 1);
+    if (without != 0) put_varint(table, std::exchange(without, 0) << 1);
     unpacked += chain.size();
     const auto [same, is_new] = first.emplace(chain, -static_cast<std::int64_t>(i + 1));
     if (!is_new) {
       const bool again = std::exchange(last_alias, same->second) == same->second;
-      fst::put_signed_varint(table, (again ? 0 : same->second) * 2 + 1);
+      put_signed_varint(table, (again ? 0 : same->second) * 2 + 1);
       continue;
     }
-    fst::put_signed_varint(table, static_cast<std::int64_t>(bytes.size() - last_place) * 2 + 1);
+    put_signed_varint(table, static_cast<std::int64_t>(bytes.size() - last_place) * 2 + 1);
     last_place = bytes.size();
     if (chain.size() > shortest_packed) {
       packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(chain.size()))));
@@ -377,7 +378,7 @@ std::string FstWriter::chains(std::string& table, std::uint64_t& unpacked) const
           LZ4_compress_default(chain.data(), packed.data(), static_cast<int>(chain.size()),
                                static_cast<int>(packed.size()));
       if (size > 0 && static_cast<std::size_t>(size) < chain.size()) {
-        fst::put_varint(bytes, chain.size());
+        put_varint(bytes, chain.size());
         bytes.append(packed, 0, static_cast<std::size_t>(size));
         continue;
       }
@@ -385,7 +386,7 @@ std::string FstWriter::chains(std::string& table, std::uint64_t& unpacked) const
     bytes += '\0';
     bytes += chain;
   }
-  if (without != 0) fst::put_varint(table, without << 1);
+  if (without != 0) put_varint(table, without << 1);
   return bytes;
 }
 
@@ -400,11 +401,11 @@ void FstWriter::flush_block() {
   fst::put_u64(content, block_start_ps_);
   fst::put_u64(content, time_ps_);
   fst::put_u64(content, unpacked);
-  fst::put_varint(content, frame_.size());
-  fst::put_varint(content, packed_frame.size());
-  fst::put_varint(content, variables_.size());
+  put_varint(content, frame_.size());
+  put_varint(content, packed_frame.size());
+  put_varint(content, variables_.size());
   content += packed_frame;
-  fst::put_varint(content, variables_.size());
+  put_varint(content, variables_.size());
   content += changes;
   content += table;
   fst::put_u64(content, table.size());
@@ -432,7 +433,7 @@ void FstWriter::declare(const WaveScope& scope) {
     to += leaf;
     if (d.kind != Kind::real && d.width > 1) to += " [" + std::to_string(d.width - 1) + ":0]";
     to += '\0';
-    fst::put_varint(to, d.kind == Kind::real ? sizeof(double) : d.kind == Kind::text ? 0 : d.width);
+    put_varint(to, d.kind == Kind::real ? sizeof(double) : d.kind == Kind::text ? 0 : d.width);
     to += no_alias;
   }
   for (const auto& child : scope.children) {
@@ -451,9 +452,9 @@ void FstWriter::finish() {
   std::string sizes;
   for (const Id id : by_handle_) {
     const Variable& variable = variables_[id];
-    fst::put_varint(sizes, variable.kind == Kind::real   ? 0
-                           : variable.kind == Kind::text ? fst::variable_length
-                                                         : variable.width);
+    put_varint(sizes, variable.kind == Kind::real   ? 0
+                      : variable.kind == Kind::text ? fst::variable_length
+                                                    : variable.width);
   }
   std::string content;
   fst::put_u64(content, sizes.size());

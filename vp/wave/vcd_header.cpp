@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 #include "vcd_reader.h"
 
@@ -249,7 +250,7 @@ std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind k
     if (index >= by_short_code_.size()) by_short_code_.resize(index + 1);
     place = &by_short_code_[index];
   } else {
-    place = &by_long_code_[std::string(code)];
+    place = &by_long_code_[code];
   }
   if (*place == 0) {
     nets_.push_back({kind, is_event, false, width});

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <system_error>
 
@@ -149,34 +149,52 @@ void write(const fs::path& name, VcdIndex::Header header, const VcdIndexMaker& m
   std::uint64_t at = sizeof header + notes.size() + bytes_of(maker.places()).size() +
                      std::uint64_t{nets} * sizeof(VcdIndex::Span);
   for (std::uint32_t net = 0; net < nets; ++net) {
-    const auto changes = maker.changes_of(net);
-    const VcdIndex::Span span{at, static_cast<std::uint32_t>(changes.size()),
-                              sum_of(bytes_of(changes), net)};
-    at += bytes_of(changes).size();
+    const std::string_view changes = maker.changes_of(net);
+    const VcdIndex::Span span{at,
+                              static_cast<std::uint32_t>(changes.size() / sizeof(std::uint64_t)),
+                              sum_of(changes, net)};
+    at += changes.size();
     file.write({reinterpret_cast<const char*>(&span), sizeof span});
   }
-  for (std::uint32_t net = 0; net < nets; ++net) file.write(bytes_of(maker.changes_of(net)));
+  for (std::uint32_t net = 0; net < nets; ++net) file.write(maker.changes_of(net));
   file.commit();
 }
 
-/// False: the VCD cannot be entered, changed meanwhile, or has a fault.
-bool make(const fs::path& file, const WaveOptions& options, const fs::path& name,
-          const VcdIndex::Header& key) {
+/// Writes the index. Returns why there is none, empty if there is one.
+std::string make(const fs::path& file, const WaveOptions& options, const fs::path& name,
+                 const VcdIndex::Header& key) {
   constexpr std::uint64_t bytes_a_change = 400, most_changes = 2'000'000;  // 2 %, 16 MB
+  WaveNotes notes;
+  VcdReader reader(file, options, notes);
+  const std::vector<std::string> of_header = notes.texts();
+  VcdIndexMaker maker(reader, std::min(most_changes, key.size / bytes_a_change));
   try {
-    WaveNotes notes;
-    VcdReader reader(file, options, notes);
-    const std::vector<std::string> of_header = notes.texts();
-    VcdIndexMaker maker(reader, std::min(most_changes, key.size / bytes_a_change));
     maker.run();
-    if (!reader.can_enter() || maker.places().empty() || !key_of(file, options).is_of(key))
-      return false;
+  } catch (const InputError& fault) {  // what comes before it can still be read
+    return fault.what();
+  }
+  if (maker.places().empty()) return "it has no values";
+  if (!key_of(file, options).is_of(key)) return "it changes while it is read";
+  try {
     write(name, key, maker, new_lines(of_header, notes.texts()),
           static_cast<std::uint32_t>(reader.nets().size()));
-    return true;
-  } catch (const InputError&) {
-    return false;  // no space for an index, or a fault: what comes before it can still be read
+  } catch (const OutputError& problem) {
+    return problem.what();
   }
+  return {};
+}
+
+/// The time with which a VCD ends, as its last bytes say; 0 if they do not.
+std::uint64_t last_time(const fs::path& file) {
+  constexpr std::uint64_t tail_size = 1 << 16;
+  InputFile input(file, "trace");
+  std::string tail(std::min(tail_size, input.size()), ' ');
+  if (!read_at(input, input.size() - tail.size(), tail.data(), tail.size())) return 0;
+  const std::size_t stamp = tail.rfind("\n#");
+  std::uint64_t steps = 0;
+  if (stamp != std::string::npos)
+    std::from_chars(tail.data() + stamp + 2, tail.data() + tail.size(), steps);
+  return steps;
 }
 
 }  // namespace
@@ -206,26 +224,48 @@ bool VcdIndex::read(const Header& expected, WaveNotes& notes) {
   return true;
 }
 
-std::unique_ptr<VcdIndex> VcdIndex::of(const fs::path& file, const WaveOptions& options,
-                                       WaveNotes& notes) {
+std::unique_ptr<VcdIndex> VcdIndex::opened(const fs::path& file, const fs::path& name,
+                                           const Header& key, WaveNotes& notes) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(name, ignored)) return nullptr;
+  std::unique_ptr<VcdIndex> index(new VcdIndex(file, name));
+  if (index->read(key, notes)) return index;
+  notes.add("its index '" + name.string() + "' is of another file, or damaged: it is not used", 0);
+  return nullptr;
+}
+
+std::unique_ptr<VcdIndex> VcdIndex::kept(const fs::path& file, const WaveOptions& options,
+                                         WaveNotes& notes) {
   const Header key = key_of(file, options);
-  const std::vector<fs::path> names = kept_as(file);
-  const auto opened = [&](const fs::path& name) -> std::unique_ptr<VcdIndex> {
-    std::error_code ignored;
-    if (!fs::is_regular_file(name, ignored)) return nullptr;
-    std::unique_ptr<VcdIndex> index(new VcdIndex(file, name));
-    if (index->read(key, notes)) return index;
-    notes.add("its index '" + name.string() + "' is of another file, or damaged: it is not used",
-              0);
-    return nullptr;
-  };
-  for (const fs::path& name : names) {
-    if (auto index = opened(name)) return index;
+  for (const fs::path& name : kept_as(file)) {
+    if (auto index = opened(file, name, key, notes)) return index;
   }
-  const fs::path name = writable(names);
-  if (name.empty() || !make(file, options, name, key)) return nullptr;
-  notes.add("has an index now, '" + name.string() + "': moments in it are found at once", 0);
-  return opened(name);
+  return nullptr;
+}
+
+std::unique_ptr<VcdIndex> VcdIndex::made(const fs::path& file, const WaveOptions& options,
+                                         WaveNotes& notes) {
+  const Header key = key_of(file, options);
+  const fs::path name = writable(kept_as(file));
+  const std::string problem = name.empty() ? "there is no folder for it that can be written"
+                                           : make(file, options, name, key);
+  if (problem.empty()) {
+    notes.add("has an index now, '" + name.string() + "': moments in it are found at once", 0);
+    return opened(file, name, key, notes);
+  }
+  notes.add("is read from the front, as it has no index: " + problem, 0);
+  return nullptr;
+}
+
+bool VcdIndex::is_worth_it(const fs::path& file, const WaveOptions& options, std::uint64_t steps) {
+  const std::uint64_t last = last_time(file);
+  std::error_code failed;
+  const std::uint64_t size = fs::file_size(file, failed);
+  if (failed || size < options.index_from) return false;
+  // Changes are taken to be as dense everywhere.
+  return last == 0 ||
+         static_cast<double>(steps) / static_cast<double>(last) * static_cast<double>(size) >=
+             static_cast<double>(options.index_from);
 }
 
 std::optional<std::uint64_t> VcdIndex::place_before(std::uint64_t steps) const {

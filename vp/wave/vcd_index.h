@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <vp/file.h>
@@ -22,11 +21,18 @@ namespace vp {
 /// anew.
 class VcdIndex {
  public:
-  /// The index of `file`, made on the first call, which reads the whole VCD. Null for what cannot
-  /// be entered (gzip, a pipe) and for a file that has a fault somewhere. `notes` gets what a user
-  /// should know, and what is odd about the VCD.
-  static std::unique_ptr<VcdIndex> of(const std::filesystem::path& file, const WaveOptions& options,
-                                      WaveNotes& notes);
+  /// The index that `file` has; null if it has none. `notes` gets what a user should know, and what
+  /// is odd about the VCD.
+  static std::unique_ptr<VcdIndex> kept(const std::filesystem::path& file,
+                                        const WaveOptions& options, WaveNotes& notes);
+  /// Makes one, for which the whole VCD is read. Null, and a note that says why, if the VCD has a
+  /// fault somewhere or the index cannot be written.
+  static std::unique_ptr<VcdIndex> made(const std::filesystem::path& file,
+                                        const WaveOptions& options, WaveNotes& notes);
+  /// The VCD is large, and so is what lies before `steps`: else reading from the front is sooner
+  /// done than an index.
+  static bool is_worth_it(const std::filesystem::path& file, const WaveOptions& options,
+                          std::uint64_t steps);
 
   /// The last place that is not after the time. None: the file begins later.
   std::optional<std::uint64_t> place_before(std::uint64_t steps) const;
@@ -41,6 +47,9 @@ class VcdIndex {
 
  private:
   VcdIndex(const std::filesystem::path& file, const std::filesystem::path& kept_as);
+  static std::unique_ptr<VcdIndex> opened(const std::filesystem::path& file,
+                                          const std::filesystem::path& name, const Header& key,
+                                          WaveNotes& notes);
   bool read(const Header& expected, WaveNotes& notes);
 
   std::filesystem::path kept_as_;

@@ -1,6 +1,7 @@
 #include "vcd_index_maker.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vp {
 
@@ -10,7 +11,7 @@ VcdIndexMaker::VcdIndexMaker(VcdReader& reader, std::size_t most)
 void VcdIndexMaker::run() {
   reader_.read(std::vector<bool>(last_.size(), true), *this, *this);
   end_block();
-  finish();
+  sort_by_net();
 }
 
 bool VcdIndexMaker::reach(std::uint64_t) {
@@ -61,7 +62,7 @@ void VcdIndexMaker::halve() {
   spacing_ *= 2;
 }
 
-void VcdIndexMaker::finish() {
+void VcdIndexMaker::sort_by_net() {
   begin_of_net_.assign(last_.size() + 1, 0);
   for (const std::uint32_t net : nets_) ++begin_of_net_[net + 1];
   for (std::size_t net = 0; net < last_.size(); ++net) begin_of_net_[net + 1] += begin_of_net_[net];
@@ -71,10 +72,9 @@ void VcdIndexMaker::finish() {
   offsets_ = std::move(sorted);
 }
 
-std::vector<std::uint64_t> VcdIndexMaker::changes_of(std::uint32_t net) const {
-  const auto from = offsets_.begin();
-  return {from + static_cast<std::ptrdiff_t>(begin_of_net_[net]),
-          from + static_cast<std::ptrdiff_t>(begin_of_net_[net + 1])};
+std::string_view VcdIndexMaker::changes_of(std::uint32_t net) const {
+  const std::size_t from = begin_of_net_[net], count = begin_of_net_[net + 1] - from;
+  return {reinterpret_cast<const char*>(offsets_.data() + from), count * sizeof offsets_[0]};
 }
 
 }  // namespace vp

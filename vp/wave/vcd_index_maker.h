@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "vcd_reader.h"
@@ -17,10 +18,9 @@ class VcdIndexMaker final : public WaveHandler, public VcdReader::Clock {
   void run();
 
   const std::vector<VcdReader::Place>& places() const { return places_; }
-  /// By net: bytes of its changes that are the last before some place, rising.
-  std::vector<std::uint64_t> changes_of(std::uint32_t net) const;
-  /// Sorts what was read by net, for changes_of().
-  void finish();
+  /// Of the net's changes those that are the last before some place: at which bytes of the file,
+  /// rising. The numbers as they are in memory, for the index.
+  std::string_view changes_of(std::uint32_t net) const;
 
  private:
   bool reach(std::uint64_t steps) override;
@@ -28,6 +28,7 @@ class VcdIndexMaker final : public WaveHandler, public VcdReader::Clock {
   void change(std::uint32_t net, const WaveValue& value) override;
   void end_block();
   void halve();
+  void sort_by_net();
 
   VcdReader& reader_;
   std::size_t most_;

@@ -6,11 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstring>
-#include <limits>
-#include <memory>
-#include <optional>
 
 // The words behind the header of a VCD.
 
@@ -133,10 +129,7 @@ void VcdReader::skip_to_end(const char* inside) {
 
 std::uint32_t VcdReader::net_of(std::string_view code) const {
   constexpr std::size_t short_code = 3;
-  if (code.size() > short_code) {
-    const auto found = by_long_code_.find(std::string(code));
-    return found == by_long_code_.end() ? no_net : found->second;
-  }
+  if (code.size() > short_code) return by_long_code_.find(code);
   std::size_t index = 0;
   for (const char c : code) {
     if (c < '!' || c > '~') return no_net;
@@ -156,9 +149,7 @@ std::uint32_t VcdReader::declared_net_of(std::string_view code) {
 }
 
 bool VcdReader::has_longer(std::string_view code) const {
-  for (const auto& [longer, net] : by_long_code_) {
-    if (longer.size() > code.size() && longer.compare(0, code.size(), code) == 0) return true;
-  }
+  if (by_long_code_.has_longer(code)) return true;
   // Codes of up to three characters: what two more may follow.
   for (char a = '!'; a <= '~' && code.size() < 3; ++a) {
     const std::string longer = std::string(code) + a;

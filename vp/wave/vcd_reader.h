@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include <vp/wave_reader.h>
 
+#include "code_table.h"
 #include "wave_declared.h"
 #include "wave_input.h"
 
@@ -120,7 +120,7 @@ class VcdReader {
   std::vector<Net> nets_;
   std::vector<WaveDeclared> declared_;
   std::vector<std::uint32_t> by_short_code_;  ///< net + 1; 0: none
-  std::unordered_map<std::string, std::uint32_t> by_long_code_;
+  CodeTable by_long_code_;                    ///< the same
   struct Scope {
     std::string path;
     bool is_array;

@@ -8,7 +8,9 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
+#include "gzip_packer.h"
 #include "wave_input.h"
 
 namespace vp {
@@ -19,6 +21,10 @@ namespace {
 constexpr std::size_t buffer_size = 256 * 1024;
 /// Longest line of a change: "b", 64 digits, suffix, written in steps of 8 bytes.
 constexpr std::size_t longest_line = 96;
+
+bool is_packed_vcd(const std::filesystem::path& file) {
+  return file.extension() == ".gz" && file.stem().extension() == ".vcd";
+}
 
 /// Identifier codes use the 94 printable characters, the shortest first.
 std::string identifier_code(VcdWriter::Id id) {
@@ -51,6 +57,7 @@ VcdWriter::VcdWriter(const std::filesystem::path& file)
     : file_(std::make_unique<OutputFile>(file.string())), buffer_(buffer_size + longest_line) {
   cursor_ = buffer_.data();
   limit_ = cursor_ + buffer_size;
+  if (is_packed_vcd(file)) packer_ = std::make_unique<GzipPacker>();
 }
 
 VcdWriter::~VcdWriter() {
@@ -262,12 +269,14 @@ void VcdWriter::write_text(std::string_view text) {
 }
 
 void VcdWriter::flush() {
-  file_->write({buffer_.data(), static_cast<std::size_t>(cursor_ - buffer_.data())});
+  const std::string_view bytes(buffer_.data(), static_cast<std::size_t>(cursor_ - buffer_.data()));
+  file_->write(packer_ ? packer_->pack(bytes) : bytes);
   cursor_ = buffer_.data();
 }
 
 void VcdWriter::finish() {
   flush();
+  if (packer_) file_->write(packer_->finish());
   const std::unique_ptr<OutputFile> file = std::move(file_);
   file->commit();
 }
@@ -277,11 +286,15 @@ std::unique_ptr<WaveWriter> open_wave_writer(const std::filesystem::path& file) 
   const bool is_device = std::filesystem::exists(file, ignored) &&
                          !std::filesystem::is_regular_file(file, ignored) &&
                          !std::filesystem::is_directory(file, ignored);
-  if (is_device || file.extension() == ".vcd") return std::make_unique<VcdWriter>(file);
-  if (file.extension() != ".fst") {
-    throw InputError("trace '" + file.string() + "': its name must end in .vcd or .fst");
+  if (!is_device && !is_wave_file_name(file)) {
+    throw InputError("trace '" + file.string() + "': its name must end in .vcd, .vcd.gz or .fst");
   }
-  return open_fst_writer(file);
+  if (!is_device && file.extension() == ".fst") return open_fst_writer(file);
+  return std::make_unique<VcdWriter>(file);
+}
+
+bool is_wave_file_name(const std::filesystem::path& file) {
+  return file.extension() == ".vcd" || file.extension() == ".fst" || is_packed_vcd(file);
 }
 
 }  // namespace vp

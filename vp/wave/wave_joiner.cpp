@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <utility>
 
 #include "wave_declared.h"
 

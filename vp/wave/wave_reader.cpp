@@ -93,12 +93,20 @@ std::optional<std::uint64_t> WaveReader::entry(std::uint64_t ps) {
   const auto wide = static_cast<unsigned __int128>(ps) * fs_per_ps / timescale_fs_;
   const std::uint64_t steps = wide > last ? last : static_cast<std::uint64_t>(wide);
   if (fst_) return fst_->block_before(steps);
-  if (!std::exchange(index_sought_, true) && !options_.strict && vcd_->can_enter() &&
-      std::filesystem::file_size(file_) >= options_.index_from) {
-    index_ = VcdIndex::of(file_, options_, *notes_);
-    if (index_) notes_->close();
-  }
+  if (!index_) seek_index(steps);
   return index_ ? index_->place_before(steps) : std::nullopt;
+}
+
+/// One that is there is used; another one is made once, for a time that is worth it.
+void WaveReader::seek_index(std::uint64_t steps) {
+  if (options_.strict || !vcd_->can_enter() || index_ask_ == IndexAsk::refused) return;
+  if (std::exchange(index_ask_, IndexAsk::missing) == IndexAsk::unknown)
+    index_ = VcdIndex::kept(file_, options_, *notes_);
+  if (!index_ && VcdIndex::is_worth_it(file_, options_, steps)) {
+    index_ = VcdIndex::made(file_, options_, *notes_);
+    if (!index_) index_ask_ = IndexAsk::refused;
+  }
+  if (index_) notes_->close();
 }
 
 void WaveReader::enter(std::uint64_t entry) {

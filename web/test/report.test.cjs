@@ -721,6 +721,10 @@ const coloursOfRow = (page, row) => page.$eval(".wave-sight canvas", (canvas, at
 
 test("waves: rows are drawn, the cursor shows values, keys and search work", () => open("waves", async (page) => {
   await page.waitForSelector(".wave-scroll[data-drawn]");
+  const all = await page.textContent("main");
+  assert.match(all, /In Surfer or VaporView: markervp trace view out\/t\.vcd --at 50000ps/, "the cursor is where the command said");
+  assert.match(all, /1 signal had no room here, the one that changes most: markervp trace plot out\/t\.vcd SIGNAL… --window/);
+  assert.match(all, /2 signals had no room here, the last of the file: markervp trace plot out\/t\.vcd SIGNAL… -o/);
   const names = await page.$$eval(".wave-names button", (buttons) => buttons.map((button) => button.title || button.textContent.trim()));
   assert.deepEqual(names, ["▾ Transactions 1", "top.m_axi.read_1", "▾ Software 1", "ps.cpu.function_name", "▾ top 4", "top.clk", "top.state", "top.level", "top.copy"]);
   for (const row of [1, 3, 5, 6, 7, 8]) assert.ok(await coloursOfRow(page, row) > 1, `row ${row} is empty`);

@@ -32,7 +32,7 @@ const marker = (random) => {
   const y = 200 + 30 * random();
   const square = [[x, y], [x + 60, y + 2], [x + 58, y + 62], [x - 2, y + 60]];
   const pose = { rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], translation_m: [0, 0, 2] };
-  return { id: 7, rotation: 1, corners_px: square, pose, reprojection_px: 0.4, iterations: 2,
+  return { id: 7, rotation: 1, side_m: 0.3, corners_px: square, pose, reprojection_px: 0.4, iterations: 2,
     truth: { corners_px: square, pose }, error: { corner_px: 0.5 + random(), translation_mm: 20 + 20 * random(), rotation_deg: 3 * random() } };
 };
 
@@ -275,9 +275,9 @@ function waves({ changes = 2000 } = {}) {
   const some = Math.max(4, Math.floor(changes / 20));
   const words = (name, of, form = "words") => ({ name, form, bits: 32, count: some, changes: packed(list(some, (i) => [i && 20 * half, i % 7]).flat()), words: list(7, of) });
   return {
-    file: "t.vcd", from: 0, to, leftOut: 1,
+    file: "t.vcd", path: "out/t.vcd", from: 0, to, dropped: 1, leftOut: 2, cursor: 50000,
     signals: [
-      { name: "top.clk", form: "bit", bits: 1, count: changes, changes: packed(list(changes, (i) => (i && half) * 4 + i % 2)) },
+      { name: "top.clk", form: "bit", bits: 1, count: changes, changes: packed(list(changes, (i) => (i && half) * 8 + i % 2)) },
       words("top.state", (i) => ["idle", "run", "</script><img src=x onerror='window.hacked=1'>", "x", "0x1F", "0xx", ""][i]),
       words("top.level", (i) => String(i * 1.5), "real"),
       words("ps.cpu.function_name", (i) => `step_${i}`),

@@ -8,7 +8,8 @@ namespace platform {
 
 namespace {
 
-/// Transactions that wait for one that began earlier: more than initiators and interrupts together.
+/// Transactions that wait until none can come that began earlier. Beyond it the first is written:
+/// an access that is announced so late comes behind those that began after it.
 constexpr std::size_t most_waiting = 4096;
 
 }  // namespace
@@ -79,7 +80,7 @@ void TransactionLog::on_change(vp::SignalBase& lines, std::uint32_t) {
 }
 
 void TransactionLog::add(trace::Transaction&& one) {
-  waiting_.emplace(Place(one.begin_ps, count_++), std::move(one));
+  waiting_.emplace(one.begin_ps, std::move(one));
   if (waiting_.size() > most_waiting) write_first();
 }
 
@@ -98,7 +99,7 @@ void TransactionLog::close() {
     one.id = line;
     one.begin_ps = since;
     one.note = "active at the end";
-    waiting_.emplace(Place(since, count_++), std::move(one));
+    waiting_.emplace(since, std::move(one));
   }
   while (!waiting_.empty()) write_first();
   survey_.last_ps = zynq().scheduler.now_ps();

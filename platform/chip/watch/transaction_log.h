@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <chip/watch/bus_log.h>
@@ -30,8 +29,6 @@ class TransactionLog : public BusWatch, private vp::SignalListener {
   void close();
 
  private:
-  using Place = std::pair<std::uint64_t, std::uint64_t>;  ///< when it begins, and which it is then
-
   void note(const BusAccess& access) override;
   void on_change(vp::SignalBase& lines, std::uint32_t) override;
   std::uint32_t interface_of(const std::string& name, trace::BusKind kind);
@@ -42,8 +39,8 @@ class TransactionLog : public BusWatch, private vp::SignalListener {
   trace::TransactionsJson json_;
   trace::Survey survey_;
   std::map<std::string, std::uint32_t> place_of_;  ///< of interfaces
-  std::map<Place, trace::Transaction> waiting_;    ///< until those that began earlier are there
-  std::uint64_t count_ = 0;
+  /// By when they begin, until those that began earlier are there.
+  std::multimap<std::uint64_t, trace::Transaction> waiting_;
   trace::TransactionSummary summary_{survey_};
   vp::SignalBase* lines_;
   std::uint64_t lines_now_ = 0;

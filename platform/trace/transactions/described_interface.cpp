@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include <trace/clock_choice.h>
 #include <trace/transactions/interfaces.h>
 #include <vp/error.h>
 #include <vp/frame_gate.h>
@@ -125,9 +126,7 @@ void describe_interface(const TraceFile& file, const std::string& text, FoundInt
     one.roles[role] = vp::find_path(word.substr(sign + 1), file.paths(), where);
   }
   check_roles(file, one, where);
-  const std::string& first = file.paths()[one.roles.begin()->second];
-  const std::size_t dot = first.rfind('.');
-  one.scope = dot == std::string::npos ? "" : first.substr(0, dot);
+  one.scope = scope_of(file.paths()[one.roles.begin()->second]);
   auto& all = found.interfaces;
   all.erase(std::remove_if(all.begin(), all.end(),
                            [&](const BusInterface& other) { return other.name == one.name; }),

@@ -195,10 +195,8 @@ class InterfaceFinder {
 /// The scope, and whose ports they are.
 void InterfaceFinder::place(BusInterface& one, std::uint32_t anchor) const {
   const std::string& path = file_.paths()[anchor];
-  const std::string level =
-      path.substr(0, path.rfind('.') == std::string::npos ? 0 : path.rfind('.'));
-  const std::size_t dot = one.name.rfind('.');
-  one.scope = one.name == level || dot == std::string::npos ? level : one.name.substr(0, dot);
+  const std::string_view level = scope_of(path), above = scope_of(one.name);
+  one.scope = one.name == level || above.empty() ? level : above;
   const std::string own = lower(leaf_of(one.name));
   const std::string word = own.substr(0, own.find('_'));
   const auto is = [&](const std::string& letter, const char* const* whole) {

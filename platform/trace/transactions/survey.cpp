@@ -110,9 +110,11 @@ struct Candidate {
 
 class Surveyor final : public Replay::Listener {
  public:
-  Surveyor(TraceFile& file, FoundInterfaces found, const StatisticsOptions& options)
+  Surveyor(TraceFile& file, FoundInterfaces found, const StatisticsOptions& options,
+           std::uint64_t to_ps)
       : file_(file), found_(std::move(found)), replay_(file), clocks_(replay_, file, options) {
     replay_.keep_texts();
+    replay_.end_at(to_ps);
     find_resets();
     for (std::size_t i = 0; i < found_.interfaces.size(); ++i) follow(i);
   }
@@ -183,8 +185,7 @@ void Surveyor::follow(std::size_t place) {
   std::size_t best = 0;
   for (const auto& [variable, low] : resets_) {
     const std::string& path = file_.paths()[variable];
-    const std::size_t level = path.rfind('.') == std::string::npos ? 0 : path.rfind('.');
-    const std::string scope = path.substr(0, level);
+    const std::string_view scope = scope_of(path);
     const bool above =
         bus.scope.compare(0, scope.size(), scope) == 0 &&
         (scope.empty() || bus.scope.size() == scope.size() || bus.scope[scope.size()] == '.');
@@ -320,8 +321,9 @@ bool is_clocked(BusKind kind) {
          kind != BusKind::irq;
 }
 
-Survey survey(TraceFile& file, FoundInterfaces found, const StatisticsOptions& clocks) {
-  return Surveyor(file, std::move(found), clocks).run();
+Survey survey(TraceFile& file, FoundInterfaces found, const StatisticsOptions& clocks,
+              std::uint64_t to_ps) {
+  return Surveyor(file, std::move(found), clocks, to_ps).run();
 }
 
 }  // namespace platform::trace

@@ -37,7 +37,8 @@ struct Survey {
 /// Reads the trace once: chooses each bus' clock, as `trace stats` does, joins the names of one
 /// bus at several levels (equal in all values throughout; the name nearest the top stays), and
 /// measures what serial lines do not say. A bus that follows no clock is left out, unless the user
-/// named its clock. Throws vp::InputError.
-Survey survey(TraceFile& file, FoundInterfaces found, const StatisticsOptions& clocks);
+/// named its clock. What is behind `to_ps` does not count. Throws vp::InputError.
+Survey survey(TraceFile& file, FoundInterfaces found, const StatisticsOptions& clocks,
+              std::uint64_t to_ps);
 
 }  // namespace platform::trace

@@ -114,6 +114,7 @@ class Reading final : public Replay::Listener {
         replay_(file),
         clocks_(replay_, file, options.clocks) {
     replay_.keep_texts();
+    replay_.end_at(options.to_ps);
     for (std::uint32_t i = 0; i < survey.interfaces.size(); ++i) add(i, sink);
   }
 
@@ -284,7 +285,7 @@ Survey survey_transactions(TraceFile& file, const TransactionsOptions& options) 
     return !kind || !options.filter.selects(one.name);
   };
   all.erase(std::remove_if(all.begin(), all.end(), unwanted), all.end());
-  Survey result = survey(file, std::move(found), options.clocks);
+  Survey result = survey(file, std::move(found), options.clocks, options.to_ps);
   if (result.interfaces.empty()) refuse(file, result);
   // Two buses of one name, as a stream and an interrupt in one scope, get names of their own.
   std::map<std::string, unsigned> count;

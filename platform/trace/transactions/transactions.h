@@ -19,6 +19,7 @@ struct TransactionsOptions {
   std::vector<std::string> described;  ///< see describe_interface()
   StatisticsOptions clocks;
   DecodeOptions decode;
+  std::uint64_t to_ps = std::numeric_limits<std::uint64_t>::max();  ///< the trace ends there
 };
 
 /// The buses of a trace. Reads it once. Throws vp::InputError if none is found.

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <trace/listing.h>
+#include <trace/questions.h>
 #include <trace/tools.h>
 
 #include "wave_kit.h"
@@ -92,6 +93,60 @@ BOOST_AUTO_TEST_CASE(every_event_occurs) {
               std::vector<std::string>{"10000 go 1", "20000 go 1", "30000 go 1"}));
   TraceFile back(text.folder / "o.vcd");
   BOOST_TEST(back.variable(0).is_event);
+}
+
+/// What `values --at` says of the first signal.
+std::string values_at(const std::string& file, std::vector<std::uint64_t> times,
+                      const vp::WaveOptions& reading = {}) {
+  TraceFile trace(file, {}, reading);
+  ValuesOptions options;
+  options.signals = {trace.paths().front()};
+  options.at_ps = std::move(times);
+  std::string text;
+  values(trace, options, [&](const ValueRow& row) {
+    text += row.values.front() + " ";
+    return true;
+  });
+  return text;
+}
+
+BOOST_AUTO_TEST_CASE(an_event_has_a_value_at_its_instant_only) {
+  const std::string head =
+      "$timescale 1ns $end $var event 1 ! go $end $var wire 1 # a $end $enddefinitions $end\n";
+  const Text text(head + "#0 0#\n#10 1!\n#20 1#\n#30 1! 0#\n#40 1#\n#50\n");
+  converted(text.file, text.folder / "o.fst");
+  vp::WaveOptions indexed;
+  indexed.index_from = 1;
+  const std::vector<std::uint64_t> times = {5'000, 10'000, 10'001, 20'000, 30'000, 50'000};
+  BOOST_TEST(values_at(text.file, times) == "0 1 0 0 1 0 ");
+  BOOST_TEST(values_at(text.file, times, indexed) == "0 1 0 0 1 0 ");
+  BOOST_TEST(values_at(text.folder / "o.fst", times) == "0 1 0 0 1 0 ");
+  // So it is for conditions, parts and differences.
+  std::string found;
+  TraceFile searched(text.file);
+  FindOptions condition;
+  condition.condition = "go";
+  find(searched, condition, [&](const Occurrence& one) {
+    found += std::to_string(one.from_ps) + "-" + std::to_string(one.until_ps) + " ";
+    return true;
+  });
+  BOOST_TEST(found == "10000-10000 30000-30000 ");
+  const auto failures = [&](const std::string& check) {
+    return judged(text.file, "n: " + check + "\n")[0].failures;
+  };
+  BOOST_TEST(failures("never go") == 2u);
+  BOOST_TEST(failures("at a falls holds go") == 0u);
+  BOOST_TEST(failures("at a rises holds not go") == 0u);
+  TraceFile file(text.file);
+  CutOptions part;
+  part.from_ps = 15'000;
+  cut(file, text.folder / "p.vcd", part);
+  BOOST_TEST(WaveText(text.folder / "p.vcd").lines.front() == "15000 a 0");
+  const Text other(head + "#0 0#\n#10 1!\n#20 1#\n#30 0#\n#40 1#\n#50\n");
+  TraceFile a(text.file), b(other.file);
+  const Difference between = difference(a, b);
+  BOOST_TEST(between.differ);
+  BOOST_TEST(between.a_ps == 30'000u);
 }
 
 BOOST_AUTO_TEST_CASE(states_are_compared_with_words) {

@@ -62,6 +62,27 @@ BOOST_AUTO_TEST_CASE(a_pulse_narrower_than_a_pixel_is_a_spike) {
   BOOST_TEST(!spike(flat));
 }
 
+BOOST_AUTO_TEST_CASE(an_event_is_a_spike_and_no_level) {
+  const kit::TemporaryFolder folder;
+  kit::write_file(folder / "t.vcd",
+                  "$timescale 1ns $end $var event 1 ! go $end $enddefinitions $end\n"
+                  "#0\n#40 1!\n#60 1!\n#100\n");
+  TraceFile file(folder / "t.vcd");
+  PlotOptions options;
+  options.signals = {"go"};
+  options.from_ps = 50'000;
+  options.to_ps = 100'000;
+  const std::string svg = plot_as_svg(file, options);
+  const auto count = [&](const std::string& part) {
+    std::size_t times = 0;
+    for (auto at = svg.find(part); at != std::string::npos; at = svg.find(part, at + 1)) ++times;
+    return times;
+  };
+  // The one in the window from the line at 0 to the top, and back.
+  BOOST_TEST(count(" 58.0V40.0\" fill=\"none\" stroke=\"#0072b2\"") == 1u, svg);
+  BOOST_TEST(count("V40.0H") == 0u, svg);
+}
+
 BOOST_AUTO_TEST_CASE(unknown_undriven_and_unset_differ) {
   const auto with = [](const std::string& value) {
     return plotted("t.p 1, t.w 4", "#0 " + value + "! b" + value + " \"\n#100\n", {"p", "w"},
@@ -90,7 +111,7 @@ BOOST_AUTO_TEST_CASE(a_diagram_samples_before_the_edges) {
       60);
   BOOST_TEST(json["signal"][0]["wave"] == "p.....");
   BOOST_TEST(json["signal"][1]["wave"] == "x01.0z");
-  BOOST_TEST(json["signal"][2]["wave"] == "x.==..");
+  BOOST_TEST(json["signal"][2]["wave"] == "z.==..");
   BOOST_TEST(json["signal"][2]["data"] == (std::vector<std::string>{"A", "B"}));
   BOOST_TEST(json["signal"][1]["name"] == "t.valid");
 }

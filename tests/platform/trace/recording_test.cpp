@@ -27,9 +27,9 @@ std::string unpacked(const Recording& recording, const Recording::Signal& signal
   for (std::uint64_t i = 0; i < signal.count; ++i) {
     const std::uint64_t number = next();
     const bool bit = signal.form == Recording::Form::bit;
-    ps += bit ? number >> 2 : number;
+    ps += bit ? number >> 3 : number;
     text += (i == 0 ? "" : " ") + std::to_string(ps) + "=";
-    text += bit ? std::string(1, "01xz"[number & 3]) : signal.words.at(next());
+    text += bit ? std::string(1, Recording::states[number & 7]) : signal.words.words().at(next());
   }
   return text;
 }
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(has_every_change_with_its_time) {
   BOOST_TEST(unpacked(found, found.signals[2]) == "300=2.5");
   BOOST_TEST(unpacked(found, found.signals[3]) == "300=hello");
   BOOST_TEST(found.to_ps == 400u);
-  BOOST_TEST(found.left_out == 0u);
+  BOOST_TEST(found.dropped + found.left_out == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(a_window_begins_with_the_values_that_are_there) {
@@ -76,9 +76,35 @@ BOOST_AUTO_TEST_CASE(what_changes_most_is_left_out_where_there_is_no_room) {
   RecordingOptions options;
   options.most_changes = 5;
   const Recording found = recorded(waves.file, options);
-  BOOST_TEST(found.left_out == 1u);
+  BOOST_TEST(found.dropped == 1u);
   BOOST_REQUIRE(found.signals.size() == 3u);
   BOOST_TEST(found.signals[0].path == "top.b");
+  options = {};
+  options.most_signals = 3;
+  const Recording short_one = recorded(waves.file, options);
+  BOOST_TEST(short_one.dropped == 0u);
+  BOOST_TEST(short_one.left_out == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(states_stay_apart_and_an_event_is_a_pulse) {
+  const kit::TemporaryFolder folder;
+  const std::string file = folder / "t.vcd";
+  kit::write_file(file,
+                  "$timescale 1ps $end $var wire 1 ! a $end $var wire 8 # v $end\n"
+                  "$var event 1 % go $end $enddefinitions $end\n"
+                  "#0 u! bz #\n#10 w! 1% bu #\n#20 -! bzzzz0001 #\n#30 l! 1%\n#31 1%\n#50\n");
+  Recording found = recorded(file);
+  BOOST_REQUIRE(found.signals.size() == 3u);
+  BOOST_TEST(unpacked(found, found.signals[0]) == "0=u 10=w 20=- 30=0");
+  BOOST_TEST(unpacked(found, found.signals[1]) == "0=0xz 10=0xu 20=0xz1");
+  BOOST_TEST(unpacked(found, found.signals[2]) == "0=0 10=1 11=0 30=1 31=0 31=1 32=0");
+  RecordingOptions late;
+  late.from_ps = 20;
+  found = recorded(file, late);
+  BOOST_TEST(unpacked(found, found.signals[2]) == "20=0 30=1 31=0 31=1 32=0");
+  late.from_ps = 30;
+  found = recorded(file, late);
+  BOOST_TEST(unpacked(found, found.signals[2]) == "30=1 31=0 31=1 32=0");
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_there_is_said) {

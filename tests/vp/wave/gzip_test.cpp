@@ -1,6 +1,8 @@
 // A VCD that gzip packed, whole and damaged.
 #include <boost/test/unit_test.hpp>
 
+#include <vp/wave_writer.h>
+
 #include "child_process.h"
 #include "wave_kit.h"
 
@@ -89,6 +91,32 @@ BOOST_AUTO_TEST_CASE(damaged_data_are_refused_with_their_byte) {
   BOOST_TEST(packed.refusal(packed.bytes + "garbage").find("damaged") != std::string::npos);
   BOOST_TEST(packed.refusal("\x1f\x8b") != "");
   BOOST_TEST(packed.refusal("\x1f") != "");
+}
+
+BOOST_AUTO_TEST_CASE(a_vcd_is_written_packed_if_its_name_says_so) {
+  const kit::TemporaryFolder folder;
+  const auto written = [&](const std::string& name) {
+    const auto writer = vp::open_wave_writer(folder / name);
+    const auto id = writer->add("top.n", vp::WaveWriter::Kind::wire, 32);
+    writer->begin(0, {0});
+    for (std::uint64_t i = 1; i < 100'000; ++i) {
+      writer->set_time(i * 7);
+      writer->change(id, i * 2654435761U);
+    }
+    writer->close(1'000'000);
+    return kit::read_file(folder / name);
+  };
+  const std::string plain = written("t.vcd"), packed = written("t.vcd.gz");
+  BOOST_TEST(packed.size() < plain.size() / 2);
+  const kit::Outcome outcome = kit::run_process("/bin/gzip", {"-dc", folder / "t.vcd.gz"}, "/tmp");
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST((outcome.out == plain));
+  BOOST_TEST((written("again.vcd.gz") == packed));
+  BOOST_TEST(WaveText(folder / "t.vcd.gz").lines.size() == 100'000u);
+  BOOST_CHECK_EXCEPTION(
+      vp::open_wave_writer(folder / "t.gz"), vp::InputError, [](const vp::InputError& e) {
+        return std::string(e.what()).find("must end in .vcd, .vcd.gz or .fst") != std::string::npos;
+      });
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -12,7 +12,8 @@ namespace {
 /// The values at a time, of a file that is read from an entry or from the front.
 class ValuesAt : private vp::WaveHandler {
  public:
-  ValuesAt(vp::WaveReader& reader, std::uint64_t ps) : ps_(ps), values_(reader.nets()) {
+  ValuesAt(vp::WaveReader& reader, std::uint64_t ps)
+      : reader_(reader), ps_(ps), values_(reader.nets()) {
     reader.select_all();
     reader.read(*this);
   }
@@ -22,11 +23,16 @@ class ValuesAt : private vp::WaveHandler {
  private:
   bool at(std::uint64_t ps) override {
     if (first_ps == UINT64_MAX) first_ps = ps;
-    return ps <= ps_;
+    if (ps > ps_) return false;
+    for (const vp::WaveVariable& variable : reader_.variables()) {
+      if (variable.is_event) values_[variable.net].clear();  // it is over
+    }
+    return true;
   }
   void change(std::uint32_t net, const vp::WaveValue& value) override {
     values_[net] = std::string(value.text);
   }
+  vp::WaveReader& reader_;
   std::uint64_t ps_;
   std::vector<std::string> values_;
 };
@@ -56,8 +62,9 @@ std::string large(unsigned nets) {
   for (unsigned i = 0; i < nets; ++i)
     text += "$var wire 32 n" + std::to_string(i) + "; v" + std::to_string(i) + " $end\n";
   text +=
-      "$var wire 1 ! q [1] $end\n$var wire 1 # q [0] $end\n$var real 64 % r $end\n"
-      "$var string 1 & s $end\n$upscope $end\n$enddefinitions $end\n";
+      "$var event 1 ? go $end\n$var wire 1 ! q [1] $end\n$var wire 1 # q [0] $end\n$var real 64 % "
+      "r $end\n"
+      "$var string 1 & s $end\n$upscope $end\n$enddefinitions $end\n#1\n1?\n";
   std::uint32_t state = 1;
   const auto next = [&] { return state = state * 1664525 + 1013904223; };
   std::uint64_t time = 5;
@@ -163,6 +170,27 @@ BOOST_AUTO_TEST_CASE(it_lies_in_the_cache_if_it_cannot_lie_beside_the_trace) {
   ::unsetenv("XDG_CACHE_HOME");
   BOOST_TEST(without.first_ps < 1'000'000u);
   BOOST_TEST(without.values == found.values, boost::test_tools::per_element());
+  BOOST_TEST(mentions(without.warnings, "there is no folder for it that can be written"));
+}
+
+BOOST_AUTO_TEST_CASE(no_index_is_made_for_what_the_front_answers_sooner) {
+  const File file(large(7));
+  vp::WaveOptions options;
+  options.index_from = 1 << 20;
+  const auto ask = [&](std::uint64_t ps) {
+    vp::WaveReader reader(file.name, options);
+    return reader.entry(ps);
+  };
+  BOOST_TEST(!ask(10'000'000));  // a tenth of the file's time
+  BOOST_TEST(!std::filesystem::exists(file.name + ".index"));
+  BOOST_TEST(ask(60'000'000).has_value());
+  BOOST_TEST(std::filesystem::exists(file.name + ".index"));
+  BOOST_TEST(ask(10'000'000).has_value());  // one that is there is used
+  // The same reader may be asked for both.
+  std::filesystem::remove(file.name + ".index");
+  vp::WaveReader reader(file.name, options);
+  BOOST_TEST(!reader.entry(10'000'000));
+  BOOST_TEST(reader.entry(60'000'000).has_value());
 }
 
 // Else an archive with a trace and a link could replace any file of the user's.
@@ -198,6 +226,7 @@ BOOST_AUTO_TEST_CASE(what_comes_before_a_fault_is_read_without_an_index) {
   const Found found = entered(file.name, 60'000'000);
   BOOST_TEST(found.values == from_the_front(file.name, 60'000'000),
              boost::test_tools::per_element());
+  BOOST_TEST(mentions(found.warnings, "is read from the front, as it has no index"));
   BOOST_TEST(!std::filesystem::exists(file.name + ".index"));
 }
 
@@ -209,7 +238,8 @@ BOOST_AUTO_TEST_CASE(an_fst_is_entered_at_its_blocks) {
     const auto wide = writer->add("top.wide", vp::WaveWriter::Kind::wire, 65536);
     const auto rare = writer->add("top.rare", vp::WaveWriter::Kind::wire, 8);
     const auto real = writer->add("top.real", vp::WaveWriter::Kind::real, 0);
-    writer->begin(0, {0, 5, 0});
+    const auto event = writer->add("top.go", vp::WaveWriter::Kind::event, 1);
+    writer->begin(0, {0, 5, 0, 0});
     std::string digits(65536, '0');
     for (unsigned i = 1; i < 300; ++i) {
       writer->set_time(i * 1000);
@@ -218,6 +248,7 @@ BOOST_AUTO_TEST_CASE(an_fst_is_entered_at_its_blocks) {
       writer->change_digits(wide, digits);
       if (i == 100) writer->change(rare, 77);
       if (i == 101) writer->change(real, 0x4004000000000000);
+      if (i == 102) writer->change_digits(event, "1");
     }
     writer->close(300'000);
   }
@@ -228,6 +259,7 @@ BOOST_AUTO_TEST_CASE(an_fst_is_entered_at_its_blocks) {
   BOOST_TEST(found.values[0] == expected[0]);
   BOOST_TEST(vp::full_digits(found.values[1], 8) == "01001101");
   BOOST_TEST(found.values[2] == "2.5");
+  BOOST_TEST(found.values[3] == "", "an event of an earlier block is over");
   BOOST_TEST(entered(file, 50'500).values[0] == from_the_front(file, 50'500)[0]);
 }
 

@@ -30,7 +30,7 @@ enum class TraceLevel : std::uint8_t {
 struct TraceOptions {
   static constexpr std::uint64_t never = ~std::uint64_t{0};
 
-  std::filesystem::path file;  ///< .vcd or .fst
+  std::filesystem::path file;  ///< .vcd, .vcd.gz or .fst
   TraceFilter filter;
   TraceLevel level = TraceLevel::ports;
   /// Traced is from <= time < to, in ps.

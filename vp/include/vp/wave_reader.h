@@ -122,6 +122,7 @@ class WaveReader {
   void declare(std::vector<WaveDeclared> declared);
   bool reach(std::uint64_t steps, WaveHandler& handler);
   std::vector<std::uint32_t> standing() const;
+  void seek_index(std::uint64_t steps);
 
   WaveOptions options_;
   std::filesystem::path file_;
@@ -129,7 +130,7 @@ class WaveReader {
   std::unique_ptr<VcdReader> vcd_;  ///< one of both
   std::unique_ptr<FstReader> fst_;
   std::unique_ptr<VcdIndex> index_;  ///< null without one
-  bool index_sought_ = false;
+  enum class IndexAsk : std::uint8_t { unknown, missing, refused } index_ask_ = IndexAsk::unknown;
   std::optional<std::uint64_t> entry_;  ///< where the next read() enters a VCD
   std::unique_ptr<WaveJoiner> joiner_;  ///< null: no vector was declared bit by bit
   std::vector<WaveVariable> variables_;

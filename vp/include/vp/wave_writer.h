@@ -70,11 +70,14 @@ class WaveWriter {
   bool timescale_ps_ = true;  ///< else fs
 };
 
-/// A writer for the format that the name's extension tells: .vcd or .fst; a pipe or device takes a
-/// VCD. Opens the file. Throws OutputError if it cannot be written, InputError for another
+/// A writer for the format that the name's extension tells: .vcd, .vcd.gz or .fst; a pipe or device
+/// takes a VCD. Opens the file. Throws OutputError if it cannot be written, InputError for another
 /// extension.
 std::unique_ptr<WaveWriter> open_wave_writer(const std::filesystem::path& file);
+/// The name has one of these extensions.
+bool is_wave_file_name(const std::filesystem::path& file);
 
+class GzipPacker;
 struct WaveDeclaration;
 struct WaveScope;
 
@@ -82,7 +85,7 @@ struct WaveScope;
 /// host or the date: the same changes give the same bytes.
 ///
 /// Texts are written as GTKWave reads them ("$var string", "sTEXT id"), with blanks and backslashes
-/// as octal escapes.
+/// as octal escapes. A file called .vcd.gz is packed with gzip.
 class VcdWriter final : public WaveWriter {
  public:
   /// Opens the file. Throws OutputError if it cannot be written.
@@ -153,7 +156,8 @@ class VcdWriter final : public WaveWriter {
   void flush();
   void finish();
 
-  std::unique_ptr<OutputFile> file_;  ///< null: closed
+  std::unique_ptr<OutputFile> file_;    ///< null: closed
+  std::unique_ptr<GzipPacker> packer_;  ///< null: the file is not packed
   bool begun_ = false;
   bool stamp_due_ = false;
   std::uint64_t time_ps_ = 0;

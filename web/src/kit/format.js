@@ -60,3 +60,8 @@ export function quantile(values, share) {
   const high = Math.min(low + 1, values.length - 1);
   return values[low] + (values[high] - values[low]) * (place - low);
 }
+
+/** Words that a shell must not read otherwise, in quotes. */
+export function shellWord(word) {
+  return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}

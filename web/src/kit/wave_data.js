@@ -15,6 +15,9 @@ function numbersOf(text) {
   };
 }
 
+const states = ["0", "1", "x", "z", "u", "w", "-"]; // of a bit
+const stateRoom = 8; // for one in a number
+
 function unpackSignal(signal, from) {
   const next = numbersOf(signal.changes);
   const times = new Float64Array(signal.count);
@@ -22,11 +25,11 @@ function unpackSignal(signal, from) {
   const bit = signal.form === "bit";
   for (let i = 0, now = from; i < signal.count; ++i) {
     const number = next();
-    now += bit ? Math.floor(number / 4) : number;
+    now += bit ? Math.floor(number / stateRoom) : number;
     times[i] = now;
-    values[i] = bit ? number % 4 : next();
+    values[i] = bit ? number % stateRoom : next();
   }
-  return { ...signal, changes: undefined, times, values, ...(signal.form === "real" && curveOf(values, signal.words)) };
+  return { ...signal, changes: undefined, times, values, states, ...(signal.form === "real" && curveOf(values, signal.words)) };
 }
 
 /** The numbers of a curve with the least and the most of each 64: a column of pixels looks at few of them, however many it holds. */
@@ -97,8 +100,6 @@ export function placeAt(times, time, low = 0) {
   }
   return low - 1;
 }
-
-const states = ["0", "1", "x", "z"];
 
 /** What a row shows at a time, as text. */
 export function valueAt(row, time) {

@@ -10,6 +10,14 @@ export function scaleOf(view, width) {
   return { x: (ps) => (ps - view.from) / perPx, time: (px) => view.from + px * perPx, perPx };
 }
 
+/** How a value looks that is neither 0 nor 1: null if it is drawn as a line. Undriven is no fault, as x is; u was never set. */
+function shadeOf(state, colour) {
+  return state === "z" ? null : state === "u" ? colour.unset : colour.unknown;
+}
+
+/** Text of a vector that is unknown as a whole: its one state; of another value undefined. */
+const wholeState = (text) => /^(?:0x)?([xzuw-])$/.exec(text)?.[1];
+
 /**
  * Walks over what is to be seen of a row: `piece(i, x, next)` for a value with room, `busy(i, j, x)` for the changes i to j - 1 that
  * fall into the column of pixels at x.
@@ -35,13 +43,14 @@ function walk(row, view, scale, width, piece, busy) {
 
 function paintBit(paint, row, y) {
   const { context, colour } = paint;
-  const levels = [y + low, y + high, y + (low + high) / 2, y + (low + high) / 2];
+  const levels = row.states.map((state) => (state === "0" ? y + low : state === "1" ? y + high : y + (low + high) / 2));
   const lines = new Path2D();
   let last = null;
   walk(row, paint.view, paint.scale, paint.width, (i, x, next) => {
     const value = row.values[i];
-    if (value === 2) {
-      context.fillStyle = colour.unknown;
+    const shade = value > 1 && shadeOf(row.states[value], colour);
+    if (shade) {
+      context.fillStyle = shade;
       context.fillRect(x, y + high, next - x, low - high);
     }
     if (last !== null && last !== levels[value]) { lines.moveTo(x, last); lines.lineTo(x, levels[value]); }
@@ -70,8 +79,10 @@ function paintWords(paint, row, y) {
   walk(row, paint.view, paint.scale, paint.width, (i, x, next) => {
     const text = row.words[row.values[i]];
     if (text === "") return;
-    const unknown = /^(0x)?x+$/.test(text);
-    context.fillStyle = unknown ? colour.unknown : colour.box;
+    const state = wholeState(text);
+    context.fillStyle = colour.line;
+    if (state === "z") { context.fillRect(x, y + (low + high) / 2, next - x, 1); return; }
+    context.fillStyle = state ? shadeOf(state, colour) : colour.box;
     context.fillRect(x, y + high, next - x, low - high);
     context.fillStyle = colour.line;
     context.fillRect(x, y + high, 1, low - high);

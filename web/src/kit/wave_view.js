@@ -1,5 +1,6 @@
 // A viewer of a recorded trace: names and values on the left, waves on one time axis on the right.
 import { h } from "./dom.js";
+import { shellWord } from "./format.js";
 import { exactTime, placeAt, unpack, valueAt } from "./wave_data.js";
 import { paintRows, rowHeight, scaleOf, stepOf } from "./wave_paint.js";
 import { rowsOf } from "./wave_rows.js";
@@ -11,7 +12,7 @@ const mostRows = 20; // in sight
 function coloursOf() {
   const colour = palette();
   const dark = isDark();
-  return { ...colour, line: colour.blue, lane: colour.green, bad: colour.vermilion, unknown: dark ? "#6b3a28" : "#f3d4c4", box: dark ? "#1d3444" : "#e3f0f8", rule: colour.line };
+  return { ...colour, line: colour.blue, lane: colour.green, bad: colour.vermilion, unknown: dark ? "#6b3a28" : "#f3d4c4", unset: dark ? "#4a4a4a" : "#e4e4e4", box: dark ? "#1d3444" : "#e3f0f8", rule: colour.line };
 }
 
 /**
@@ -31,6 +32,8 @@ export function waveView(data, { frames = [], moved = () => {} } = {}) {
   const sight = h("div", { class: "wave-sight" }, names, canvas);
   const scroller = h("div", { class: "wave-scroll", tabindex: "0", role: "group", "aria-label": "Waves: arrow keys move the cursor, plus and minus zoom, n and p go to the next and the previous change of the chosen row" }, sight, space);
   const status = h("p", { class: "note number", "aria-live": "polite" });
+  const command = h("code", {});
+  const elsewhere = h("p", { class: "note" }, "In Surfer or VaporView: ", command);
   let viewHeight = axisHeight + mostRows * rowHeight;
 
   const width = () => canvas.clientWidth || 800;
@@ -111,6 +114,7 @@ export function waveView(data, { frames = [], moved = () => {} } = {}) {
     names.replaceChildren(...shown.map(nameOf));
     const delta = second === null ? "" : ` · ${exactTime(Math.abs(second - cursor))} to the second cursor`;
     status.textContent = `${exactTime(cursor)}${delta} · ${exactTime(Math.round(view.to - view.from))} in sight`;
+    command.textContent = `markervp trace view ${[data.path, ...(chosen && chosen.form !== "lane" ? [chosen.name] : [])].map(shellWord).join(" ")} --at ${cursor}ps`;
     scroller.dataset.drawn = String(shown.length);
   }
   function relist() {
@@ -179,5 +183,5 @@ export function waveView(data, { frames = [], moved = () => {} } = {}) {
     }
     return "";
   }
-  return { element: h("div", { class: "waves" }, tools, scroller, status), setCursor, valueOf, lastOf };
+  return { element: h("div", { class: "waves" }, tools, scroller, status, elsewhere), setCursor, valueOf, lastOf };
 }

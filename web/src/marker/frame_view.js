@@ -1,11 +1,9 @@
 // The image with what was found in it, each kind a layer to switch.
 import { download, h, s } from "../kit/dom.js";
 import { counted, error, fixed, heading, significant, time, words } from "../kit/format.js";
-import { onMoment } from "../kit/moment.js";
 import { stageColour } from "../kit/theme.js";
 import { countsOf, partsOf } from "../run/facts.js";
 
-const side = 0.3; // m, of a marker (thesis 5.1)
 const directions = ["north", "south", "east", "west"]; // as the corner words number them
 
 /** Pixel of a point of the marker, given in metres; null behind the camera. */
@@ -37,7 +35,8 @@ function markerLayer(frame) {
 function axesLayer(frame, view) {
   return frame.markers.filter((marker) => marker.pose).map((marker) => {
     const from = projected(view.camera, marker.pose, [0, 0, 0]);
-    return [["u", [side / 2, 0, 0]], ["v", [0, side / 2, 0]], ["w", [0, 0, side / 2]]].map(([name, point]) => {
+    const half = marker.side_m / 2;
+    return [["u", [half, 0, 0]], ["v", [0, half, 0]], ["w", [0, 0, half]]].map(([name, point]) => {
       const to = projected(view.camera, marker.pose, point);
       if (!from || !to) return null;
       return [s("line", { class: `pose ${name}`, x1: from[0], y1: from[1], x2: to[0], y2: to[1] }),
@@ -166,7 +165,7 @@ export function frameView(run) {
     download(`${shown[place].input}.svg`, new XMLSerializer().serializeToString(copy), "image/svg+xml");
   } }, "SVG");
   draw();
-  onMoment((moment) => {
+  run.moment.listen((moment) => {
     const to = shown.findIndex((frame) => frame.index === moment.frame);
     if (to >= 0) go(to);
   });

@@ -11,6 +11,15 @@ function figureIn(figures, path, unit) {
   return { title: of(found?.title || name).replace("*", name), unit: of(found?.people_unit ?? found?.unit ?? ""), factor: found?.factor ?? 1 };
 }
 
+/** A moment, {ps, frame}, that one part of the page points at and others show: listeners get it, and who points at it. */
+function sharedMoment() {
+  const listeners = new Set();
+  return {
+    listen: (listener) => listeners.add(listener),
+    pointAt: (moment, from) => listeners.forEach((listener) => listener(moment, from)),
+  };
+}
+
 export function makeRun(result, extras = {}, figures = []) {
   const frames = result.frames ?? [];
   const delivered = frames.filter((frame) => !frame.gave_up);
@@ -29,6 +38,7 @@ export function makeRun(result, extras = {}, figures = []) {
   };
   const run = {
     result, extras, frames, delivered, stages, configured, megahertz,
+    moment: sharedMoment(),
     /** What a unit of work is called. */
     unit: whole,
     /** How people see a figure: {title, unit, factor}. */

@@ -1,7 +1,6 @@
 // Everything that happened, on one time axis: engines, then counters below.
 import { axis, chart } from "../kit/chart.js";
 import { h } from "../kit/dom.js";
-import { pointAt } from "../kit/moment.js";
 import { counted, fixed, heading, significant, time, words } from "../kit/format.js";
 import { isDark, palette } from "../kit/theme.js";
 
@@ -130,7 +129,7 @@ export function gantt(run) {
   });
   function follow(chartInstance) {
     const surface = chartInstance.getZr();
-    chartInstance.on("dblclick", ({ value }) => pointAt({ ps: value[1] * 1e6, frame: frames.find((frame) => value[1] >= frame.start && value[1] < frame.end)?.index }));
+    chartInstance.on("dblclick", ({ value }) => run.moment.pointAt({ ps: value[1] * 1e6, frame: frames.find((frame) => value[1] >= frame.start && value[1] < frame.end)?.index }));
     let held = null;
     surface.on("mousewheel", (event) => {
       if (!event.event.ctrlKey) return;

@@ -1,7 +1,7 @@
 // Frames, configuration, provenance.
 import { application } from "../application.js";
 import { h } from "../kit/dom.js";
-import { fixed, heading, significant, words } from "../kit/format.js";
+import { fixed, heading, shellWord, significant, words } from "../kit/format.js";
 import { origin } from "../kit/origin.js";
 import { dataTable } from "../kit/table.js";
 import { countsOf, figuresOf } from "./facts.js";
@@ -57,11 +57,6 @@ export function configuration(run) {
       : h("p", { class: "note" }, "Every parameter has its default.")),
     h("details", {}, h("summary", {}, known.size > 0 ? `All other parameters (${rest.length})` : `All parameters (${rest.length})`),
       dataTable({ columns, rows: rest, caption: "Parameters", name: "configuration", exportable: true, limit: 1000 })));
-}
-
-/** Words that a shell must not read otherwise, in quotes. */
-export function shellWord(word) {
-  return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
 
 export function provenance(run) {

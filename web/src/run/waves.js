@@ -1,21 +1,27 @@
 // The recorded trace of a run, or a trace alone: a viewer, and what the other parts of the page know of the cursor's moment.
 import { h } from "../kit/dom.js";
-import { counted } from "../kit/format.js";
-import { onMoment, pointAt } from "../kit/moment.js";
+import { counted, shellWord } from "../kit/format.js";
 import { waveView } from "../kit/wave_view.js";
 
 const psInUs = 1e6;
 
+/** What has no room in the page, and where it is to be had. */
 function leftOut(data) {
-  const transactions = data.transactionsLeftOut > 0 && h("p", { class: "note" }, `${counted(data.transactionsLeftOut, "transaction")} had no room here, the last ones: markervp trace transactions ${data.file} lists them.`);
-  return data.leftOut > 0 ? [transactions, h("p", { class: "note" }, `${counted(data.leftOut, "signal")} had no room here, those that change most: markervp trace plot ${data.file} SIGNAL… --window FROM:TO -o page.html shows them.`)] : transactions;
+  const path = shellWord(data.path);
+  const note = (count, what, why, how) => count > 0 && h("p", { class: "note" }, `${counted(count, what)} had no room here, ${why}: markervp trace ${how}.`);
+  return [
+    note(data.transactionsLeftOut, "transaction", "the last ones", `transactions ${path} lists them`),
+    note(data.dropped, "signal", data.dropped === 1 ? "the one that changes most" : "those that change most", `plot ${path} SIGNAL… --window FROM:TO -o page.html shows them`),
+    note(data.leftOut, "signal", "the last of the file", `plot ${path} SIGNAL… -o page.html shows those that you name`),
+  ];
 }
 
 const help = () => h("p", { class: "note" }, "Click sets the cursor, Shift and a click a second one; drag or Shift and the wheel move, Ctrl and the wheel zoom. A row that you choose has its changes behind ‹ and ›.");
 
 /** The page of a trace alone. */
 export function wavesPage(data) {
-  const { element } = waveView(data);
+  const { element, setCursor } = waveView(data);
+  if (data.cursor !== undefined) setCursor(data.cursor);
   return { title: data.file, subtitle: counted(data.signals.length, "signal"),
     sections: [h("section", { id: "waves", "aria-labelledby": "waves-title" }, h("h2", { id: "waves-title" }, "Waves"), help(), leftOut(data), element)] };
 }
@@ -24,7 +30,7 @@ export function wavesPage(data) {
 export function waves(run) {
   const data = run.extras.waves;
   const section = (...children) => h("section", { id: "waves", "aria-labelledby": "waves-title" }, h("h2", { id: "waves-title" }, "Waves"), children);
-  if (data?.tooLarge) return section(h("p", { class: "note" }, `The trace is too large for this page: markervp trace plot ${data.tooLarge} --window FROM:TO -o page.html shows a part.`));
+  if (data?.tooLarge) return section(h("p", { class: "note" }, `The trace is too large for this page: markervp trace plot ${shellWord(data.tooLarge)} --window FROM:TO -o page.html shows a part.`));
   if (data?.problem) return section(h("p", { class: "note" }, `No waves: ${data.problem}`));
   if (!data?.signals?.length) return null;
   const spans = (run.extras.timeline?.frames ?? []).map((frame) => ({ index: frame.index, name: `${run.unit} ${frame.index + 1}`, from: frame.start * psInUs, to: frame.end * psInUs }))
@@ -36,12 +42,12 @@ export function waves(run) {
     const access = viewer.lastOf("ps.cpu.m_axi.access", ps);
     here.replaceChildren(
       frame ? h("button", { type: "button", class: "plain", onclick: () => {
-        pointAt({ ps, frame: frame.index }, section);
+        run.moment.pointAt({ ps, frame: frame.index }, section);
         document.getElementById("frame")?.scrollIntoView();
       } }, `in ${frame.name}`) : "",
       software && h("span", {}, " · software: ", run.extras.profile ? h("a", { href: "#profile" }, software) : software), access ? ` · last access: ${access}` : "");
   };
   const viewer = waveView(data, { frames: spans, moved });
-  onMoment((moment, from) => { if (from !== section && moment.ps !== undefined) viewer.setCursor(moment.ps); });
+  run.moment.listen((moment, from) => { if (from !== section && moment.ps !== undefined) viewer.setCursor(moment.ps); });
   return section(help(), leftOut(data), viewer.element, here);
 }

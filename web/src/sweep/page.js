@@ -1,8 +1,7 @@
 // The page of a sweep.
 import { h, whenSeen } from "../kit/dom.js";
-import { counted, fixed, significant } from "../kit/format.js";
+import { counted, fixed, significant, shellWord } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
-import { shellWord } from "../run/tables.js";
 import { columnsOf, heatMap, parallel, tornado } from "./charts.js";
 import { makeSweep } from "./facts.js";
 import { makeSelection } from "./selection.js";
