@@ -70,7 +70,8 @@ function facts(frame) {
     if (marker.pose) {
       add("Position", marker.pose.translation_m.map((m) => fixed(m, 3)).join(", ") + " m");
       if (marker.reprojection_px !== undefined)
-        add("Reprojection", `${fixed(marker.reprojection_px, 2)} px after ${counted(marker.iterations, "iteration")}`);
+        add("Reprojection", `${fixed(marker.reprojection_px, 2)} px` +
+          (marker.iterations === undefined ? "" : ` after ${counted(marker.iterations, "iteration")}`));
     }
     if (marker.error) {
       add("Error", [`${error(marker.error.corner_px, 2)} px`, marker.error.translation_mm !== undefined && `${error(marker.error.translation_mm, 1)} mm`,
