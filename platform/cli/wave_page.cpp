@@ -150,7 +150,7 @@ std::string waves_json(const TraceCommandOptions& options, std::ostream& err) {
 }
 
 std::string waves_of_run(const std::string& file) {
-  // In bytes, a second of reading; what is packed is 10 to 30 times smaller.
+  // In bytes, a second of reading; what is packed is 4 to 30 times smaller.
   constexpr std::uint64_t largest_vcd = 256 << 20, largest_packed = 16 << 20;
   const bool is_plain = std::filesystem::path(file).extension() == ".vcd";
   std::error_code failed;

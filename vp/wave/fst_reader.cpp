@@ -209,17 +209,15 @@ void FstReader::unpack_chains(const std::vector<Place>& places, char method,
     fst::Cursor cursor(file_, packed, place.at, "chain of changes");
     const std::uint64_t size = cursor.varint();
     const std::string_view content = packed.substr(cursor.consumed());
-    std::string& chain = unpacked_.emplace_back();
+    if (size > fst::most_unpacked(method, content.size())) cursor.fail("has an impossible size");
+    const std::size_t length = size == 0 ? content.size() : size;
+    char* const chain = unpacked_.take(length);
     if (size == 0) {
-      chain = content;
-    } else {
-      if (size > fst::most_unpacked(method, content.size())) cursor.fail("has an impossible size");
-      chain.resize(size);
-      if (!fst::unpack(method, content, chain.data(), chain.size())) {
-        cursor.fail("cannot be unpacked");
-      }
+      std::copy(content.begin(), content.end(), chain);
+    } else if (!fst::unpack(method, content, chain, length)) {
+      cursor.fail("cannot be unpacked");
     }
-    chains_[i] = {chain.data(), chain.data() + chain.size()};
+    chains_[i] = {chain, chain + length, 0};
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i].same_as != 0) chains_[i] = chains_[places[i].same_as - 1];
@@ -245,11 +243,11 @@ const char* FstReader::take(Chain& chain, std::uint64_t size) const {
   return std::exchange(chain.next, chain.next + size);
 }
 
-/// Notes when the net changes next, counted from the instant `from`.
+/// Reads when the net changes next, counted from the instant `from`.
 void FstReader::schedule(std::uint32_t net, std::size_t from) {
-  Chain ahead = chains_[net];
-  if (ahead.next == ahead.end) return;
-  const std::uint64_t head = varint(ahead);
+  Chain& chain = chains_[net];
+  if (chain.next == chain.end) return;
+  const std::uint64_t head = chain.head = varint(chain);
   const bool is_scalar = nets_[net].kind == WaveVariable::Kind::bits && nets_[net].length() == 1;
   const std::uint64_t delta = is_scalar ? head >> ((head & 1) != 0 ? 4 : 2) : head >> 1;
   if (delta >= due_.size() - from) corrupt_changes();
@@ -305,7 +303,7 @@ void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& 
 
 void FstReader::hand_over(std::uint32_t net, WaveHandler& handler) {
   Chain& chain = chains_[net];
-  const std::uint64_t head = varint(chain);
+  const std::uint64_t head = chain.head;
   const bool as_written = (head & 1) != 0;
   const Net& form = nets_[net];
   if (form.kind == WaveVariable::Kind::text) {

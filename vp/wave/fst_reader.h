@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include <vp/wave_reader.h>
 
+#include "byte_arena.h"
 #include "fst_file.h"
 #include "wave_declared.h"
 
@@ -55,6 +55,7 @@ class FstReader {
   struct Chain {
     const char* next = nullptr;
     const char* end = nullptr;
+    std::uint64_t head = 0;  ///< of the change that is due: its time, and how it is written
   };
   /// Where the chain of a handle is among the bytes of a block.
   struct Place {
@@ -107,7 +108,7 @@ class FstReader {
   std::uint64_t block_start_ = 0, block_end_ = 0;
   std::vector<std::uint64_t> times_;
   std::string frame_;
-  std::deque<std::string> unpacked_;     ///< chains point into them
+  ByteArena unpacked_;                   ///< chains point into it
   std::vector<Chain> chains_;            ///< by net
   std::vector<std::uint32_t> due_;       ///< by instant: net + 1 of the first that changes in it
   std::vector<std::uint32_t> also_due_;  ///< by net: net + 1 of the next in the same instant

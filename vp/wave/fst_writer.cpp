@@ -20,8 +20,9 @@ namespace vp {
 
 namespace {
 
-/// Bytes of changes that make a block: what a reader has to hold at a time.
-constexpr std::size_t block_size = 16 << 20;
+/// Bytes of changes that make a block: what a reader has to hold at a time. With 16 MiB files are 3
+/// % smaller, and reading takes twice the memory and a third more time (measured).
+constexpr std::size_t block_size = 4 << 20;
 /// Shorter chains are not worth packing.
 constexpr std::size_t shortest_packed = 32;
 
