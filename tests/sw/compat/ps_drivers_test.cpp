@@ -132,14 +132,15 @@ struct TimerFixture : Fixture {
   TimerFixture() {
     state().xparameters = {{"TMRCTR_0_BASEADDR", timer_base},
                            {"TMRCTR_0_CLOCK_FREQ_HZ", 100'000'000},
-                           {"XTMRCTR_NUM_INSTANCES", 1}};
+                           {"TMRCTR_5_BASEADDR", 0x4285'0000},
+                           {"XTMRCTR_NUM_INSTANCES", 6}};
     BOOST_REQUIRE_EQUAL(XTmrCtr_Initialize(&timer, 0), XST_SUCCESS);
     state().accesses.clear();
   }
   std::uint32_t& control(unsigned number) {
     return state().registers[timer_base + number * XTC_TIMER_COUNTER_OFFSET];
   }
-  XTmrCtr timer;
+  XTmrCtr timer{};
   std::vector<u8> handled;
 };
 
@@ -153,8 +154,26 @@ BOOST_FIXTURE_TEST_SUITE(xtmrctr, TimerFixture)
 
 BOOST_AUTO_TEST_CASE(timers_have_numbers_and_addresses) {
   BOOST_CHECK(XTmrCtr_LookupConfig(timer_base) == XTmrCtr_LookupConfig(0));
-  BOOST_CHECK(XTmrCtr_LookupConfig(1) == nullptr);
-  BOOST_CHECK_EQUAL(XTmrCtr_Initialize(&timer, 1), XST_DEVICE_NOT_FOUND);
+  BOOST_CHECK_EQUAL(XTmrCtr_LookupConfig(5)->BaseAddress, 0x4285'0000u);
+  BOOST_CHECK(XTmrCtr_LookupConfig(0x4285'0000) == XTmrCtr_LookupConfig(5));
+  BOOST_CHECK(XTmrCtr_LookupConfig(6) == nullptr);
+  BOOST_CHECK_EQUAL(XTmrCtr_Initialize(&timer, 6), XST_DEVICE_NOT_FOUND);
+}
+
+// Its control word goes back as it was read: a handler that resets the timer is not called again.
+BOOST_AUTO_TEST_CASE(a_reset_takes_the_event_away) {
+  control(0) = XTC_CSR_ENABLE_INT_MASK | XTC_CSR_INT_OCCURED_MASK | XTC_CSR_ENABLE_TMR_MASK;
+  XTmrCtr_Reset(&timer, 0);
+  BOOST_CHECK(writes_to(timer_base) == (Words{0x1E0, 0x1C0}));
+}
+
+// One that runs is left alone.
+BOOST_AUTO_TEST_CASE(it_is_set_up_a_second_time) {
+  XTmrCtr_Start(&timer, 0);
+  state().accesses.clear();
+  BOOST_CHECK_EQUAL(XTmrCtr_Initialize(&timer, 0), XST_SUCCESS);
+  BOOST_CHECK(writes_to(timer_base).empty());
+  BOOST_CHECK(writes_to(timer_base + 0x10) == (Words{0x120, 0}));
 }
 
 BOOST_AUTO_TEST_CASE(starts_from_the_reset_value) {
