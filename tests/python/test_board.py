@@ -14,6 +14,7 @@ def test_program_meets_its_board(board):
     board.wait_for_text("copied, temperature 0x", timeout="10 ms")
     assert "a4a0" in "".join(board.console).lower()
     assert eeprom.read(0x20, 5) == b"\x01\x02\x03\x04\xff"
+    board.run("20 us")
     assert not board.pin(10)
     board.pin(50, level=1)
     board.wait_for_text("button, loop-back 1", timeout="1 ms")
