@@ -73,6 +73,8 @@ const std::map<Name, Exception>& exceptions() {
       {{"gpio", "MASK_DATA_2_MSW"}, {all, "a mask in its upper half"}},
       {{"gpio", "MASK_DATA_3_LSW"}, {all, "a mask in its upper half"}},
       {{"gpio", "MASK_DATA_3_MSW"}, {all, "a mask in its upper half"}},
+      {{"gpio", "DATA_0_RO"}, {all, "pull-ups hold what nothing drives"}},
+      {{"gpio", "DATA_1_RO"}, {all, "pull-ups hold what nothing drives"}},
       {{"gpio", "DATA_2"}, {all, "inputs show their level"}},
       {{"gpio", "DATA_3"}, {all, "inputs show their level"}},
       {{"i2c0", "CR"}, {0x0000'0042, "CLR_FIFO clears itself; a master's ADDR starts"}},

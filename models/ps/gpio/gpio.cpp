@@ -116,6 +116,12 @@ void Gpio::connect_pins(unsigned from, unsigned to) {
   update_pins();
 }
 
+void Gpio::set_pull_up(unsigned pin, bool on) {
+  const std::uint64_t bit = std::uint64_t{1} << pin;
+  pull_ups_ = on ? pull_ups_ | bit : pull_ups_ & ~bit;
+  update_pins();
+}
+
 bool Gpio::pin(unsigned pin) const {
   if (pin >= ps_gpio::pin_count) const_cast<Gpio*>(this)->outside(pin);
   const unsigned bank = bank_of(pin);
@@ -126,7 +132,7 @@ std::uint32_t Gpio::driven(unsigned number) const {
   return banks_[number].dirm & banks_[number].oen;
 }
 
-// A ring of wires without a driver is low.
+// A ring of wires without a driver has the pull-up of its last pin.
 bool Gpio::outside_level(unsigned pin, unsigned hops) const {
   const Outside& board = outside_[pin];
   if (board.kind == Outside::level) return board.high;
@@ -137,7 +143,8 @@ bool Gpio::outside_level(unsigned pin, unsigned hops) const {
     if ((driven(source) & bit) != 0) return (banks_[source].data & bit) != 0;
     return outside_level(board.from, hops + 1);
   }
-  if (bank < first_emio_bank || !emio_gpio_i.bound()) return false;
+  if (bank < first_emio_bank) return pull_ups_ >> pin & 1;
+  if (!emio_gpio_i.bound()) return false;
   return emio_gpio_i.read() >> (pin - ps_gpio::mio_pins) & 1;
 }
 
@@ -159,6 +166,14 @@ std::uint32_t Gpio::level_of(unsigned number) const {
 void Gpio::before_end_of_elaboration() {
   Clocked::before_end_of_elaboration();
   if (emio_gpio_i.bound()) emio_gpio_i.signal()->attach(*this);
+}
+
+// What was on the pins before is no edge.
+void Gpio::start_of_simulation() {
+  update_pins();
+  under_way_.clear();
+  for (Bank& bank : banks_) bank.seen = bank.now;
+  update();
 }
 
 void Gpio::on_change(vp::SignalBase&, std::uint32_t) {

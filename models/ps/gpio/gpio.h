@@ -15,9 +15,9 @@ namespace ps {
 /// GPIO of the processing system: 54 pins of the MIO and 64 wires of the EMIO to the PL.
 ///
 /// A pin that the program drives shows its output register. Any other pin shows what the board
-/// drives (set_pin(), connect_pins()), an EMIO wire what `emio_gpio_i` brings; with neither it is
-/// low. MIO pins 7 and 8 are outputs only and read 0. Registers see a level `synchroniser_clocks`
-/// after the pin.
+/// drives (set_pin(), connect_pins()), an EMIO wire what `emio_gpio_i` brings; with neither an MIO
+/// pin has its pull-up (set_pull_up()), and what has none is low. MIO pins 7 and 8 are outputs only
+/// and read 0. Registers see a level `synchroniser_clocks` after the pin.
 class Gpio : public vp::Clocked {
  public:
   /// Flip-flops between a pin and the registers, in clocks of CPU_1x. Assumed: UG585 draws a
@@ -43,6 +43,8 @@ class Gpio : public vp::Clocked {
   void release_pin(unsigned pin);
   /// A wire from one pin to another: `to` follows `from`.
   void connect_pins(unsigned from, unsigned to);
+  /// The SLCR switches the pull-up of an MIO pin; off at first.
+  void set_pull_up(unsigned pin, bool on);
   /// The level of a pin.
   bool pin(unsigned pin) const;
 
@@ -70,7 +72,7 @@ class Gpio : public vp::Clocked {
   void on_change(vp::SignalBase& signal, std::uint32_t id) override;
   void before_end_of_elaboration() override;
   void end_of_elaboration() override {}  // the EMIO may be left open
-  void start_of_simulation() override { update_pins(); }
+  void start_of_simulation() override;
 
   Bank bank_at(unsigned number);
   void wire_bank(unsigned number);
@@ -85,6 +87,7 @@ class Gpio : public vp::Clocked {
 
   std::vector<Bank> banks_;
   std::vector<Outside> outside_;
+  std::uint64_t pull_ups_ = 0;  ///< by MIO pin
   std::deque<Change> under_way_;
 };
 

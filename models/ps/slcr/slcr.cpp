@@ -198,6 +198,18 @@ void Slcr::resets_written(std::uint32_t offset) {
   }
 }
 
+// ---- pins
+
+// MIO_PIN_nn.PULLUP is 1 at reset, but for the pins that choose how to boot (UG585, appendix B.28).
+void Slcr::on_pull_up(const std::function<void(unsigned pin, bool on)>& change) {
+  for (unsigned pin = 0; pin < slcr::mio_pins; ++pin) {
+    const vp::Register& control = registers[slcr::MIO_PIN(pin)];
+    const auto tell = [change, pin, &control] { change(pin, control.any(slcr::mio_pin::PULLUP)); };
+    on_write(slcr::MIO_PIN(pin), tell);
+    tell();
+  }
+}
+
 // ---- the lock
 
 void Slcr::wire() {

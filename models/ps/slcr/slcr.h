@@ -95,6 +95,9 @@ class Slcr : public sc_core::sc_module {
   /// `offset`.
   void on_reset(std::uint32_t offset, std::uint32_t bits, std::function<void(bool)> hold);
 
+  /// Calls `change` for each MIO pin now, and whenever software switches its pull-up.
+  void on_pull_up(const std::function<void(unsigned pin, bool on)>& change);
+
   /// Outputs of the PLLs now, Hz. 0: powered down or in reset, and not bypassed. A PLL that has not
   /// locked yet counts as locked.
   clock_tree::PllOutputs plls() const;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <vp/report.h>
+#include <vp/text.h>
 #include <xilinx/common/estimate.h>
 
 namespace xilinx {
@@ -91,6 +92,17 @@ void AxiCdma::fail(std::uint32_t error) {
   update();
 }
 
+void AxiCdma::fail_on_bus(bool nothing_there) {
+  const bool reads = state_ == State::reading;
+  vp::warn(
+      *this, "/markervp/axi_cdma/bus_error",
+      std::string{reads ? "the source" : "the destination"} + ", " +
+          vp::hex((reads ? sa_ : da_) + done_bytes_) +
+          (nothing_there ? ", is out of reach of M_AXI (DECERR): see its addresses in the design"
+                         : ", refuses the access (SLVERR)"));
+  fail(nothing_there ? cdmasr::DMADecErr : cdmasr::DMASlvErr);
+}
+
 void AxiCdma::reset() {
   s_axi_lite.reset();
   state_ = State::idle;
@@ -152,8 +164,7 @@ void AxiCdma::edge() {
   if (state_ == State::starting) {
     read_burst();
   } else if (m_axi.response() != tlm::TLM_OK_RESPONSE) {
-    return fail(m_axi.response() == tlm::TLM_ADDRESS_ERROR_RESPONSE ? cdmasr::DMADecErr
-                                                                    : cdmasr::DMASlvErr);
+    return fail_on_bus(m_axi.response() == tlm::TLM_ADDRESS_ERROR_RESPONSE);
   } else if (state_ == State::reading) {
     write_burst();
   } else if (state_ == State::writing) {

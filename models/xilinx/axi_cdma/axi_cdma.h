@@ -49,6 +49,8 @@ class AxiCdma : public vp::Clocked, public vp::Ip {
   void wire();
   void start();
   void fail(std::uint32_t error);
+  /// Ends the transfer with what the memory port answered.
+  void fail_on_bus(bool nothing_there);
   void reset();
   void read_burst();
   void write_burst();

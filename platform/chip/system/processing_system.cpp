@@ -276,6 +276,7 @@ void ProcessingSystem::connect_resets() {
   const auto connect = [this](std::uint32_t offset, std::uint32_t bits, auto& device) {
     slcr.on_reset(offset, bits, [&device](bool held) { device.hold_in_reset(held); });
   };
+  slcr.on_pull_up([this](unsigned pin, bool on) { gpio.set_pull_up(pin, on); });
   connect(slcr::GPIO_RST_CTRL, 1, gpio);
   connect(slcr::I2C_RST_CTRL, 1, i2c0);
   connect(slcr::I2C_RST_CTRL, 2, i2c1);

@@ -123,6 +123,38 @@ u16 XAdcPs_GetMinMaxMeasurement(XAdcPs* InstancePtr, u8 MeasurementType) {
       XAdcPs_ReadInternalReg(InstancePtr, XADCPS_MAX_TEMP_OFFSET + MeasurementType));
 }
 
+void XAdcPs_SetMuxMode(XAdcPs* InstancePtr, int MuxMode, u8 Channel) {
+  const u32 set = XADCPS_CFR0_MUX_MASK | (Channel & XADCPS_CFR0_CHANNEL_MASK);
+  change(InstancePtr, XADCPS_CFR0_OFFSET, XADCPS_CFR0_MUX_MASK, MuxMode == 1 ? set : 0);
+}
+
+void XAdcPs_SetPowerdownMode(XAdcPs* InstancePtr, u32 Mode) {
+  change(InstancePtr, XADCPS_CFR2_OFFSET, XADCPS_CFR2_PD_MASK, Mode << XADCPS_CFR2_PD_SHIFT);
+}
+
+u32 XAdcPs_GetPowerdownMode(XAdcPs* InstancePtr) {
+  return (XAdcPs_ReadInternalReg(InstancePtr, XADCPS_CFR2_OFFSET) & ~XADCPS_CFR2_PD_MASK) >>
+         XADCPS_CFR2_PD_SHIFT;
+}
+
+void XAdcPs_SetSequencerEvent(XAdcPs* InstancePtr, int IsEventMode) {
+  change(InstancePtr, XADCPS_CFR0_OFFSET, XADCPS_CFR0_EC_MASK,
+         IsEventMode == 1 ? XADCPS_CFR0_EC_MASK : 0);
+}
+
+int XAdcPs_GetSamplingMode(XAdcPs* InstancePtr) {
+  return (XAdcPs_ReadInternalReg(InstancePtr, XADCPS_CFR0_OFFSET) & XADCPS_CFR0_EC_MASK) != 0;
+}
+
+void XAdcPs_EnableUserOverTemp(XAdcPs* InstancePtr) {
+  change(InstancePtr, XADCPS_ATR_OT_UPPER_OFFSET, XADCPS_ATR_OT_UPPER_ENB_MASK,
+         XADCPS_ATR_OT_UPPER_ENB_VAL);
+}
+
+void XAdcPs_DisableUserOverTemp(XAdcPs* InstancePtr) {
+  change(InstancePtr, XADCPS_ATR_OT_UPPER_OFFSET, XADCPS_ATR_OT_UPPER_ENB_MASK, 0);
+}
+
 void XAdcPs_SetAvg(XAdcPs* InstancePtr, u8 Average) {
   Xil_AssertVoid(Average <= XADCPS_AVG_256_SAMPLES);
   change(InstancePtr, XADCPS_CFR0_OFFSET, XADCPS_CFR0_AVG_VALID_MASK,

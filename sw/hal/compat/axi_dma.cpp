@@ -69,17 +69,18 @@ bool is_possible(const XAxiDma_BdRing& ring, UINTPTR address, u32 length) {
          (ring.HasDRE || address % static_cast<UINTPTR>(ring.DataWidth) == 0);
 }
 
-#define MARKERVP_AXI_DMA(number)                                                              \
-  {                                                                                           \
-    number, HAL_XPAR(AXIDMA_##number##_BASEADDR), 0,                                          \
-        static_cast<int>(HAL_XPAR(AXIDMA_##number##_INCLUDE_MM2S)), 0,                        \
-        static_cast<int>(HAL_XPAR(AXIDMA_##number##_M_AXI_MM2S_DATA_WIDTH)),                  \
-        static_cast<int>(HAL_XPAR(AXIDMA_##number##_INCLUDE_S2MM)), 0,                        \
-        static_cast<int>(HAL_XPAR(AXIDMA_##number##_M_AXI_S2MM_DATA_WIDTH)),                  \
-        static_cast<int>(HAL_XPAR(AXIDMA_##number##_INCLUDE_SG)), 1, 1, 32,                   \
-        static_cast<int>(HAL_XPAR(AXIDMA_##number##_SG_LENGTH_WIDTH)),                        \
-        {HAL_XPAR(XAXIDMA_##number##_INTERRUPTS), HAL_XPAR(XAXIDMA_##number##_INTERRUPTS_1)}, \
-        XPAR_XSCUGIC_0_BASEADDR,                                                              \
+#define MARKERVP_AXI_DMA(number)                                                         \
+  {                                                                                      \
+    number, MARKERVP_XPAR(AXIDMA_##number##_BASEADDR, 0), 0,                             \
+        static_cast<int>(MARKERVP_XPAR(AXIDMA_##number##_INCLUDE_MM2S, 0)), 0,           \
+        static_cast<int>(MARKERVP_XPAR(AXIDMA_##number##_M_AXI_MM2S_DATA_WIDTH, 32)),    \
+        static_cast<int>(MARKERVP_XPAR(AXIDMA_##number##_INCLUDE_S2MM, 0)), 0,           \
+        static_cast<int>(MARKERVP_XPAR(AXIDMA_##number##_M_AXI_S2MM_DATA_WIDTH, 32)),    \
+        static_cast<int>(MARKERVP_XPAR(AXIDMA_##number##_INCLUDE_SG, 0)), 1, 1, 32,      \
+        static_cast<int>(MARKERVP_XPAR(AXIDMA_##number##_SG_LENGTH_WIDTH, 14)),          \
+        {MARKERVP_XPAR(XAXIDMA_##number##_INTERRUPTS, markervp_compat::no_interrupt),    \
+         MARKERVP_XPAR(XAXIDMA_##number##_INTERRUPTS_1, markervp_compat::no_interrupt)}, \
+        XPAR_XSCUGIC_0_BASEADDR,                                                         \
   }
 
 }  // namespace
@@ -87,9 +88,8 @@ bool is_possible(const XAxiDma_BdRing& ring, UINTPTR address, u32 length) {
 extern "C" {
 
 XAxiDma_Config* XAxiDma_LookupConfig(UINTPTR DeviceId) {
-  static XAxiDma_Config configs[] = {MARKERVP_AXI_DMA(0), MARKERVP_AXI_DMA(1), MARKERVP_AXI_DMA(2),
-                                     MARKERVP_AXI_DMA(3)};
-  static const unsigned count = markervp_compat::devices(HAL_XPAR(XAXIDMA_NUM_INSTANCES));
+  static XAxiDma_Config configs[] = MARKERVP_EACH_DEVICE(MARKERVP_AXI_DMA);
+  static const unsigned count = markervp_compat::devices(MARKERVP_XPAR(XAXIDMA_NUM_INSTANCES, 0));
   for (unsigned n = 0; n < count; ++n) {
     if (DeviceId == n || DeviceId == configs[n].BaseAddr) return &configs[n];
   }

@@ -25,12 +25,13 @@ std::uint32_t direction_of(const XGpio* instance, unsigned channel) {
          (channel == 2 ? axi_gpio::GPIO2_TRI : axi_gpio::GPIO_TRI);
 }
 
-#define MARKERVP_AXI_GPIO(number)                                       \
-  {                                                                     \
-    number, HAL_XPAR(GPIO_##number##_BASEADDR),                         \
-        static_cast<int>(HAL_XPAR(GPIO_##number##_INTERRUPT_PRESENT)),  \
-        static_cast<int>(HAL_XPAR(GPIO_##number##_IS_DUAL)),            \
-        HAL_XPAR(XGPIO_##number##_INTERRUPTS), XPAR_XSCUGIC_0_BASEADDR, \
+#define MARKERVP_AXI_GPIO(number)                                                  \
+  {                                                                                \
+    number, MARKERVP_XPAR(GPIO_##number##_BASEADDR, 0),                            \
+        static_cast<int>(MARKERVP_XPAR(GPIO_##number##_INTERRUPT_PRESENT, 0)),     \
+        static_cast<int>(MARKERVP_XPAR(GPIO_##number##_IS_DUAL, 0)),               \
+        MARKERVP_XPAR(XGPIO_##number##_INTERRUPTS, markervp_compat::no_interrupt), \
+        XPAR_XSCUGIC_0_BASEADDR,                                                   \
   }
 
 }  // namespace
@@ -38,9 +39,8 @@ std::uint32_t direction_of(const XGpio* instance, unsigned channel) {
 extern "C" {
 
 XGpio_Config* XGpio_LookupConfig(UINTPTR DeviceId) {
-  static XGpio_Config configs[] = {MARKERVP_AXI_GPIO(0), MARKERVP_AXI_GPIO(1), MARKERVP_AXI_GPIO(2),
-                                   MARKERVP_AXI_GPIO(3)};
-  static const unsigned count = markervp_compat::devices(HAL_XPAR(XGPIO_NUM_INSTANCES));
+  static XGpio_Config configs[] = MARKERVP_EACH_DEVICE(MARKERVP_AXI_GPIO);
+  static const unsigned count = markervp_compat::devices(MARKERVP_XPAR(XGPIO_NUM_INSTANCES, 0));
   for (unsigned n = 0; n < count; ++n) {
     if (DeviceId == n || DeviceId == configs[n].BaseAddress) return &configs[n];
   }

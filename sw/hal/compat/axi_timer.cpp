@@ -6,6 +6,9 @@
 
 namespace {
 
+// As with the vendor's driver, a control word goes back as it was read: the event in it, which a
+// write of 1 takes away, is gone then.
+
 constexpr u8 counters = XTC_DEVICE_TIMER_COUNT;
 constexpr u32 ns_per_s = 1000000000;
 
@@ -35,14 +38,8 @@ u32& started(XTmrCtr* timer, u8 number) {
   return number == 0 ? timer->IsStartedTmrCtr0 : timer->IsStartedTmrCtr1;
 }
 
-/// A write of 1 takes an event away: not by the way.
-u32 without_event(u32 word) {
-  return word & ~u32{XTC_CSR_INT_OCCURED_MASK};
-}
-
 void change_both(const XTmrCtr* timer, u32 clear, u32 set) {
-  for (u8 n = 0; n < counters; ++n)
-    set_control(timer, n, (without_event(control(timer, n)) & ~clear) | set);
+  for (u8 n = 0; n < counters; ++n) set_control(timer, n, (control(timer, n) & ~clear) | set);
 }
 
 void serve(XTmrCtr* timer, u8 number) {
@@ -58,10 +55,12 @@ void serve(XTmrCtr* timer, u8 number) {
   set_control(timer, number, word | XTC_CSR_INT_OCCURED_MASK);
 }
 
-#define MARKERVP_AXI_TIMER(number)                                                           \
-  {                                                                                          \
-    number, HAL_XPAR(TMRCTR_##number##_BASEADDR), HAL_XPAR(TMRCTR_##number##_CLOCK_FREQ_HZ), \
-        HAL_XPAR(XTMRCTR_##number##_INTERRUPTS), XPAR_XSCUGIC_0_BASEADDR,                    \
+#define MARKERVP_AXI_TIMER(number)                                                   \
+  {                                                                                  \
+    number, MARKERVP_XPAR(TMRCTR_##number##_BASEADDR, 0),                            \
+        MARKERVP_XPAR(TMRCTR_##number##_CLOCK_FREQ_HZ, 0),                           \
+        MARKERVP_XPAR(XTMRCTR_##number##_INTERRUPTS, markervp_compat::no_interrupt), \
+        XPAR_XSCUGIC_0_BASEADDR,                                                     \
   }
 
 }  // namespace
@@ -69,9 +68,8 @@ void serve(XTmrCtr* timer, u8 number) {
 extern "C" {
 
 XTmrCtr_Config* XTmrCtr_LookupConfig(UINTPTR DeviceId) {
-  static XTmrCtr_Config configs[] = {MARKERVP_AXI_TIMER(0), MARKERVP_AXI_TIMER(1),
-                                     MARKERVP_AXI_TIMER(2), MARKERVP_AXI_TIMER(3)};
-  static const unsigned count = markervp_compat::devices(HAL_XPAR(XTMRCTR_NUM_INSTANCES));
+  static XTmrCtr_Config configs[] = MARKERVP_EACH_DEVICE(MARKERVP_AXI_TIMER);
+  static const unsigned count = markervp_compat::devices(MARKERVP_XPAR(XTMRCTR_NUM_INSTANCES, 0));
   for (unsigned n = 0; n < count; ++n) {
     if (DeviceId == n || DeviceId == configs[n].BaseAddress) return &configs[n];
   }
@@ -80,10 +78,13 @@ XTmrCtr_Config* XTmrCtr_LookupConfig(UINTPTR DeviceId) {
 
 void XTmrCtr_CfgInitialize(XTmrCtr* InstancePtr, XTmrCtr_Config* ConfigPtr, UINTPTR EffectiveAddr) {
   Xil_AssertVoid(InstancePtr && ConfigPtr);
-  *InstancePtr = {};
   InstancePtr->Config = *ConfigPtr;
   InstancePtr->Config.BaseAddress = EffectiveAddr;
   InstancePtr->BaseAddress = EffectiveAddr;
+  InstancePtr->Handler = nullptr;
+  InstancePtr->CallBackRef = InstancePtr;
+  InstancePtr->IsPwmEnabled = FALSE;
+  InstancePtr->Stats = {};
   InstancePtr->IsReady = XIL_COMPONENT_IS_READY;
 }
 
@@ -131,7 +132,7 @@ void XTmrCtr_Stop(XTmrCtr* InstancePtr, u8 TmrCtrNumber) {
 
 void XTmrCtr_Reset(XTmrCtr* InstancePtr, u8 TmrCtrNumber) {
   Xil_AssertVoid(TmrCtrNumber < counters);
-  const u32 word = without_event(control(InstancePtr, TmrCtrNumber));
+  const u32 word = control(InstancePtr, TmrCtrNumber);
   set_control(InstancePtr, TmrCtrNumber, word | XTC_CSR_LOAD_MASK);
   set_control(InstancePtr, TmrCtrNumber, word);
 }
@@ -158,7 +159,7 @@ int XTmrCtr_IsExpired(XTmrCtr* InstancePtr, u8 TmrCtrNumber) {
 
 void XTmrCtr_SetOptions(XTmrCtr* InstancePtr, u8 TmrCtrNumber, u32 Options) {
   Xil_AssertVoid(TmrCtrNumber < counters);
-  u32 clear = XTC_CSR_INT_OCCURED_MASK, set = 0;
+  u32 clear = 0, set = 0;
   for (const Option& option : options) {
     ((Options & option.option) != 0 ? set : clear) |= option.bits;
   }

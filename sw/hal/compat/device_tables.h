@@ -2,8 +2,7 @@
 
 // What the drivers know of AXI GPIO, AXI timer and AXI DMA: the values of xparameters.h under the
 // driver's names, whatever the instances are called. A design may have more devices than the header
-// that this library was built with; their values come from the platform (HAL_XPAR), and those here
-// stand where there is no such device.
+// that this library was built with; their values come from the platform.
 
 #include <hal/hal.h>
 #include <xparameters.h>
@@ -12,144 +11,48 @@
 
 namespace markervp_compat {
 
-/// How many devices of a driver are looked up: four at most.
+/// How many devices of a driver are looked up: as many as one AXI interconnect has masters (PG059).
+constexpr unsigned most_devices = 16;
+
+/// How many there are of `instances`.
 inline unsigned devices(std::uint32_t instances) {
-  return instances < 4 ? instances : 4;
+  return instances < most_devices ? instances : most_devices;
 }
+
+/// The number that `text` is, which is what a macro stands for: `otherwise` where it is a name, as
+/// that of a macro that is not defined. Suffixes do not count.
+constexpr std::uint32_t number_or(const char* text, std::uint32_t otherwise) {
+  if (*text < '0' || *text > '9') return otherwise;
+  const bool hexadecimal = text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
+  std::uint32_t value = 0;
+  for (text += hexadecimal ? 2 : 0; *text != '\0'; ++text) {
+    const char digit = *text >= 'a' ? static_cast<char>(*text - 'a' + 'A') : *text;
+    if (digit >= '0' && digit <= '9') {
+      value = value * (hexadecimal ? 16 : 10) + static_cast<std::uint32_t>(digit - '0');
+    } else if (hexadecimal && digit >= 'A' && digit <= 'F') {
+      value = value * 16 + static_cast<std::uint32_t>(digit - 'A' + 10);
+    } else {
+      break;
+    }
+  }
+  return value;
+}
+
+/// What an interrupt has in the vendor's tables that is not wired.
+constexpr std::uint32_t no_interrupt = 0xFFFF;
 
 }  // namespace markervp_compat
 
-#ifndef XPAR_GPIO_0_BASEADDR
-#define XPAR_GPIO_0_BASEADDR 0
-#define XPAR_GPIO_0_INTERRUPT_PRESENT 0
-#define XPAR_GPIO_0_IS_DUAL 0
-#endif
-#ifndef XPAR_GPIO_1_BASEADDR
-#define XPAR_GPIO_1_BASEADDR 0
-#define XPAR_GPIO_1_INTERRUPT_PRESENT 0
-#define XPAR_GPIO_1_IS_DUAL 0
-#endif
-#ifndef XPAR_GPIO_2_BASEADDR
-#define XPAR_GPIO_2_BASEADDR 0
-#define XPAR_GPIO_2_INTERRUPT_PRESENT 0
-#define XPAR_GPIO_2_IS_DUAL 0
-#endif
-#ifndef XPAR_GPIO_3_BASEADDR
-#define XPAR_GPIO_3_BASEADDR 0
-#define XPAR_GPIO_3_INTERRUPT_PRESENT 0
-#define XPAR_GPIO_3_IS_DUAL 0
-#endif
+#define MARKERVP_TEXT(value) #value
+#define MARKERVP_EXPANDED(value) MARKERVP_TEXT(value)
 
-#ifndef XPAR_AXIDMA_0_BASEADDR
-#define XPAR_AXIDMA_0_BASEADDR 0
-#define XPAR_AXIDMA_0_INCLUDE_MM2S 0
-#define XPAR_AXIDMA_0_INCLUDE_S2MM 0
-#define XPAR_AXIDMA_0_INCLUDE_SG 0
-#define XPAR_AXIDMA_0_SG_LENGTH_WIDTH 14
-#define XPAR_AXIDMA_0_M_AXI_MM2S_DATA_WIDTH 32
-#define XPAR_AXIDMA_0_M_AXI_S2MM_DATA_WIDTH 32
-#endif
-#ifndef XPAR_AXIDMA_1_BASEADDR
-#define XPAR_AXIDMA_1_BASEADDR 0
-#define XPAR_AXIDMA_1_INCLUDE_MM2S 0
-#define XPAR_AXIDMA_1_INCLUDE_S2MM 0
-#define XPAR_AXIDMA_1_INCLUDE_SG 0
-#define XPAR_AXIDMA_1_SG_LENGTH_WIDTH 14
-#define XPAR_AXIDMA_1_M_AXI_MM2S_DATA_WIDTH 32
-#define XPAR_AXIDMA_1_M_AXI_S2MM_DATA_WIDTH 32
-#endif
-#ifndef XPAR_AXIDMA_2_BASEADDR
-#define XPAR_AXIDMA_2_BASEADDR 0
-#define XPAR_AXIDMA_2_INCLUDE_MM2S 0
-#define XPAR_AXIDMA_2_INCLUDE_S2MM 0
-#define XPAR_AXIDMA_2_INCLUDE_SG 0
-#define XPAR_AXIDMA_2_SG_LENGTH_WIDTH 14
-#define XPAR_AXIDMA_2_M_AXI_MM2S_DATA_WIDTH 32
-#define XPAR_AXIDMA_2_M_AXI_S2MM_DATA_WIDTH 32
-#endif
-#ifndef XPAR_AXIDMA_3_BASEADDR
-#define XPAR_AXIDMA_3_BASEADDR 0
-#define XPAR_AXIDMA_3_INCLUDE_MM2S 0
-#define XPAR_AXIDMA_3_INCLUDE_S2MM 0
-#define XPAR_AXIDMA_3_INCLUDE_SG 0
-#define XPAR_AXIDMA_3_SG_LENGTH_WIDTH 14
-#define XPAR_AXIDMA_3_M_AXI_MM2S_DATA_WIDTH 32
-#define XPAR_AXIDMA_3_M_AXI_S2MM_DATA_WIDTH 32
-#endif
+/// HAL_XPAR of a name that xparameters.h need not define.
+#define MARKERVP_XPAR(name, otherwise) \
+  hal_xpar(#name, markervp_compat::number_or(MARKERVP_EXPANDED(XPAR_##name), otherwise))
 
-#ifndef XPAR_TMRCTR_0_BASEADDR
-#define XPAR_TMRCTR_0_BASEADDR 0
-#define XPAR_TMRCTR_0_CLOCK_FREQ_HZ 0
-#endif
-#ifndef XPAR_TMRCTR_1_BASEADDR
-#define XPAR_TMRCTR_1_BASEADDR 0
-#define XPAR_TMRCTR_1_CLOCK_FREQ_HZ 0
-#endif
-#ifndef XPAR_TMRCTR_2_BASEADDR
-#define XPAR_TMRCTR_2_BASEADDR 0
-#define XPAR_TMRCTR_2_CLOCK_FREQ_HZ 0
-#endif
-#ifndef XPAR_TMRCTR_3_BASEADDR
-#define XPAR_TMRCTR_3_BASEADDR 0
-#define XPAR_TMRCTR_3_CLOCK_FREQ_HZ 0
-#endif
-
-// A device without interrupts has the number that the vendor's tables have then.
-#ifndef XPAR_XGPIO_0_INTERRUPTS
-#define XPAR_XGPIO_0_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XGPIO_1_INTERRUPTS
-#define XPAR_XGPIO_1_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XGPIO_2_INTERRUPTS
-#define XPAR_XGPIO_2_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XGPIO_3_INTERRUPTS
-#define XPAR_XGPIO_3_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XAXIDMA_0_INTERRUPTS
-#define XPAR_XAXIDMA_0_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XAXIDMA_1_INTERRUPTS
-#define XPAR_XAXIDMA_1_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XAXIDMA_2_INTERRUPTS
-#define XPAR_XAXIDMA_2_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XAXIDMA_3_INTERRUPTS
-#define XPAR_XAXIDMA_3_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XAXIDMA_0_INTERRUPTS_1
-#define XPAR_XAXIDMA_0_INTERRUPTS_1 0xFFFF
-#endif
-#ifndef XPAR_XAXIDMA_1_INTERRUPTS_1
-#define XPAR_XAXIDMA_1_INTERRUPTS_1 0xFFFF
-#endif
-#ifndef XPAR_XAXIDMA_2_INTERRUPTS_1
-#define XPAR_XAXIDMA_2_INTERRUPTS_1 0xFFFF
-#endif
-#ifndef XPAR_XAXIDMA_3_INTERRUPTS_1
-#define XPAR_XAXIDMA_3_INTERRUPTS_1 0xFFFF
-#endif
-#ifndef XPAR_XTMRCTR_0_INTERRUPTS
-#define XPAR_XTMRCTR_0_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XTMRCTR_1_INTERRUPTS
-#define XPAR_XTMRCTR_1_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XTMRCTR_2_INTERRUPTS
-#define XPAR_XTMRCTR_2_INTERRUPTS 0xFFFF
-#endif
-#ifndef XPAR_XTMRCTR_3_INTERRUPTS
-#define XPAR_XTMRCTR_3_INTERRUPTS 0xFFFF
-#endif
-
-#ifndef XPAR_XGPIO_NUM_INSTANCES
-#define XPAR_XGPIO_NUM_INSTANCES 0
-#endif
-#ifndef XPAR_XTMRCTR_NUM_INSTANCES
-#define XPAR_XTMRCTR_NUM_INSTANCES 0
-#endif
-#ifndef XPAR_XAXIDMA_NUM_INSTANCES
-#define XPAR_XAXIDMA_NUM_INSTANCES 0
-#endif
+/// A table with an entry for each device that is looked up.
+#define MARKERVP_EACH_DEVICE(entry)                                                           \
+  {                                                                                           \
+    entry(0), entry(1), entry(2), entry(3), entry(4), entry(5), entry(6), entry(7), entry(8), \
+        entry(9), entry(10), entry(11), entry(12), entry(13), entry(14), entry(15)            \
+  }

@@ -69,6 +69,10 @@ unsigned int sleep(unsigned int seconds) {
   return 0;
 }
 
+void msleep(unsigned long mseconds) {
+  wait_counts(static_cast<u64>(mseconds) * COUNTS_PER_SECOND / 1'000);
+}
+
 }  // extern "C"
 
 // xil_assert.h, xil_util.h and xil_testio.h.

@@ -83,6 +83,11 @@ void XUartPs_SendByte(UINTPTR BaseAddress, u8 Data) {
   XUartPs_WriteReg(BaseAddress, uart::FIFO, Data);
 }
 
+void XUartPs_WaitTransmitDone(UINTPTR BaseAddress) {
+  while (!XUartPs_IsTransmitFifoEmpty(BaseAddress) || XUartPs_IsTransmitActive(BaseAddress)) {
+  }
+}
+
 u8 XUartPs_RecvByte(UINTPTR BaseAddress) {
   while (!XUartPs_IsReceiveData(BaseAddress)) {
   }

@@ -9,7 +9,9 @@
 #include "xil_mem.h"
 #include "xil_printf.h"
 #include "xil_testio.h"
+#include "xil_testmem.h"
 #include "xil_util.h"
+#include "xiltimer.h"
 #include "xparameters.h"
 #include "xparameters_ps.h"
 #include "xpseudo_asm.h"
@@ -19,6 +21,12 @@
 
 static int checks_failed;
 static volatile int interrupts;
+static volatile int ticks;
+static u32 memory[64];
+
+static void Ticked(void* CallBackRef, u32 Status) {
+  *(volatile int*)CallBackRef += Status == 0;
+}
 
 static void CheckFailed(const char8* File, s32 Line) {
   (void)File;
@@ -85,6 +93,12 @@ int main(void) {
   while (interrupts == 0)
     ;
   if (interrupts != 3) return XST_FAILURE;
+  if (Xil_TestMem32(memory, 64, 0, XIL_TESTMEM_ALLMEMTESTS) != 0 || memory[63] != 0xDEADBEEF)
+    return XST_FAILURE;
+  XTimer_SetInterval(1);
+  XTimer_SetHandler(Ticked, (void*)&ticks, 0xA0);
+  msleep(5);
+  if (ticks < 4 || ticks > 5) return XST_FAILURE;
   xil_printf("Successfully ran the odds and ends\r\n");
   return XST_SUCCESS;
 }

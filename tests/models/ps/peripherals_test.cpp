@@ -73,6 +73,35 @@ BOOST_AUTO_TEST_CASE(gpio_wire_from_pin_to_pin_interrupts) {
   BOOST_TEST(!b.dut.irq.get());
 }
 
+// What is on a pin at the start is no edge; the board is stronger than a pull-up.
+BOOST_AUTO_TEST_CASE(gpio_pull_ups_hold_what_nothing_drives) {
+  Alone<ps::Gpio> b("gpio", ps_gpio::base);
+  b.dut.set_pull_up(12, true);
+  b.dut.connect_pins(12, 13);
+  b.run([&] {
+    using namespace ps_gpio;
+    put(base + INT_POLARITY_0, 1u << 12);
+    let_pass(5 * clock_ps);
+    BOOST_TEST(look(base + DATA_0_RO) == (1u << 12 | 1u << 13), "a wire to a pin with a pull-up");
+    BOOST_TEST((look(base + INT_STAT_0) & 1u << 12) == 0u);
+    b.dut.set_pin(12, false);
+    let_pass(5 * clock_ps);
+    BOOST_TEST(look(base + DATA_0_RO) == 0u);
+    b.dut.release_pin(12);
+    let_pass(5 * clock_ps);
+    BOOST_TEST((look(base + INT_STAT_0) & 1u << 12) != 0u);
+    put(base + DIRM_0, 1u << 12);
+    put(base + OEN_0, 1u << 12);
+    let_pass(5 * clock_ps);
+    BOOST_TEST(look(base + DATA_0_RO) == 0u, "the program drives it");
+    put(base + DIRM_0, 0);
+    b.dut.set_pull_up(12, false);
+    let_pass(5 * clock_ps);
+    BOOST_TEST(look(base + DATA_0_RO) == 0u);
+    return 0;
+  });
+}
+
 // The level is seen two clocks after the pin, at an edge.
 BOOST_AUTO_TEST_CASE(gpio_edges_of_the_emio) {
   Alone<ps::Gpio> b("gpio", ps_gpio::base);

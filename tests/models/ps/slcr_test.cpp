@@ -342,4 +342,28 @@ BOOST_AUTO_TEST_CASE(on_chip_memory_at_0_is_told) {
   BOOST_TEST(b.warnings("/markervp/slcr/ocm_cfg") == 1u);
 }
 
+// On at reset but for pins 2 to 8, which choose how the chip boots (UG585, table 6-4); software
+// switches those of unlocked registers.
+BOOST_AUTO_TEST_CASE(pull_ups_follow_their_registers) {
+  SlcrBench b;
+  std::uint64_t on = 0;
+  b.slcr.on_pull_up([&on](unsigned pin, bool is_on) {
+    const std::uint64_t bit = std::uint64_t{1} << pin;
+    on = is_on ? on | bit : on & ~bit;
+  });
+  constexpr std::uint64_t all = ((std::uint64_t{1} << slcr::mio_pins) - 1) & ~std::uint64_t{0x1FC};
+  BOOST_TEST(on == all);
+  b.run([&] {
+    set(slcr::MIO_PIN(50), 0x0600);
+    get(slcr::MIO_PIN(50));
+    BOOST_TEST(on == all, "locked");
+    unlock();
+    set(slcr::MIO_PIN(50), 0x0600);
+    set(slcr::MIO_PIN(51), 0x1600);
+    get(slcr::MIO_PIN(50));
+    BOOST_TEST(on == (all & ~(std::uint64_t{1} << 50)));
+    return 0;
+  });
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -10,6 +10,7 @@
 #include <vp/error.h>
 #include <vp/report.h>
 #include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
+#include <xilinx/axi_cdma/axi_cdma.h>
 #include "bus_master.h"
 
 using kit::BusMaster;
@@ -243,6 +244,33 @@ BOOST_AUTO_TEST_CASE(debug_and_direct_access) {
     BOOST_TEST(!b.master.socket->get_direct_mem_ptr(b.master.payload, dmi));
     BOOST_TEST(kit::now_ps() == 0u);
   });
+}
+
+// The memory has 8 KiB: what lies behind answers DECERR.
+BOOST_AUTO_TEST_CASE(a_central_dma_says_which_of_its_addresses_nothing_answers_at) {
+  using namespace axi_cdma;
+  for (const bool reads : {true, false}) {
+    Bench b;
+    xilinx::AxiCdma cdma("axi_cdma_0", b.clock);
+    BusMaster software{"software"};
+    xilinx::AxiBramCtrl memory("memory", b.clock, AxiBramCtrlBuild{});
+    memory.s_axi_aresetn(b.aresetn);
+    software.socket.bind(cdma.s_axi_lite.socket);
+    cdma.m_axi.link.socket.bind(memory.s_axi);
+    software.simulate([&] {
+      software.write(SA, reads ? 0x2000 : 0x1FC0);
+      software.write(DA, reads ? 0x40 : 0x1FC0 + 0x20);
+      software.write(BTT, 0x40);
+      BusMaster::wait_until(100 * period);
+      BOOST_TEST(software.read(CDMASR) == (cdmasr::DMADecErr | cdmasr::Err_Irq | cdmasr::Idle));
+    });
+    const std::string said = b.text.str();
+    BOOST_TEST(
+        said.find(reads ? "the source, 0x00002000, is out of reach of M_AXI (DECERR)"
+                        : "the destination, 0x00002000, is out of reach of M_AXI (DECERR)") !=
+            std::string::npos,
+        said);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,12 +1,16 @@
-// XGpioPs, XTtcPs, XTmrCtr and the waits of xil_util.h.
+// XGpioPs, XTtcPs, XTmrCtr, XAdcPs and the waits of xil_util.h.
 #include <boost/test/unit_test.hpp>
 
 #include <ps_gpio_registers.h>
+#include <ps_xadc_registers.h>
 #include <ttc_registers.h>
+#include <xadcps.h>
 #include <xgpiops.h>
 #include <xil_util.h>
 #include <xtmrctr.h>
 #include <xttcps.h>
+
+#include <utility>
 
 #include "fake_hal.h"
 
@@ -132,14 +136,15 @@ struct TimerFixture : Fixture {
   TimerFixture() {
     state().xparameters = {{"TMRCTR_0_BASEADDR", timer_base},
                            {"TMRCTR_0_CLOCK_FREQ_HZ", 100'000'000},
-                           {"XTMRCTR_NUM_INSTANCES", 1}};
+                           {"TMRCTR_5_BASEADDR", 0x4285'0000},
+                           {"XTMRCTR_NUM_INSTANCES", 6}};
     BOOST_REQUIRE_EQUAL(XTmrCtr_Initialize(&timer, 0), XST_SUCCESS);
     state().accesses.clear();
   }
   std::uint32_t& control(unsigned number) {
     return state().registers[timer_base + number * XTC_TIMER_COUNTER_OFFSET];
   }
-  XTmrCtr timer;
+  XTmrCtr timer{};
   std::vector<u8> handled;
 };
 
@@ -153,8 +158,26 @@ BOOST_FIXTURE_TEST_SUITE(xtmrctr, TimerFixture)
 
 BOOST_AUTO_TEST_CASE(timers_have_numbers_and_addresses) {
   BOOST_CHECK(XTmrCtr_LookupConfig(timer_base) == XTmrCtr_LookupConfig(0));
-  BOOST_CHECK(XTmrCtr_LookupConfig(1) == nullptr);
-  BOOST_CHECK_EQUAL(XTmrCtr_Initialize(&timer, 1), XST_DEVICE_NOT_FOUND);
+  BOOST_CHECK_EQUAL(XTmrCtr_LookupConfig(5)->BaseAddress, 0x4285'0000u);
+  BOOST_CHECK(XTmrCtr_LookupConfig(0x4285'0000) == XTmrCtr_LookupConfig(5));
+  BOOST_CHECK(XTmrCtr_LookupConfig(6) == nullptr);
+  BOOST_CHECK_EQUAL(XTmrCtr_Initialize(&timer, 6), XST_DEVICE_NOT_FOUND);
+}
+
+// Its control word goes back as it was read: a handler that resets the timer is not called again.
+BOOST_AUTO_TEST_CASE(a_reset_takes_the_event_away) {
+  control(0) = XTC_CSR_ENABLE_INT_MASK | XTC_CSR_INT_OCCURED_MASK | XTC_CSR_ENABLE_TMR_MASK;
+  XTmrCtr_Reset(&timer, 0);
+  BOOST_CHECK(writes_to(timer_base) == (Words{0x1E0, 0x1C0}));
+}
+
+// One that runs is left alone.
+BOOST_AUTO_TEST_CASE(it_is_set_up_a_second_time) {
+  XTmrCtr_Start(&timer, 0);
+  state().accesses.clear();
+  BOOST_CHECK_EQUAL(XTmrCtr_Initialize(&timer, 0), XST_SUCCESS);
+  BOOST_CHECK(writes_to(timer_base).empty());
+  BOOST_CHECK(writes_to(timer_base + 0x10) == (Words{0x120, 0}));
 }
 
 BOOST_AUTO_TEST_CASE(starts_from_the_reset_value) {
@@ -192,6 +215,56 @@ BOOST_AUTO_TEST_CASE(pulse_width) {
   BOOST_CHECK(writes_to(timer_base + 4) == Words{98});
   BOOST_CHECK(writes_to(timer_base + 0x14) == Words{23});
   BOOST_CHECK_EQUAL(XTmrCtr_PwmConfigure(&timer, 100, 200), XST_INVALID_PARAM);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+namespace {
+
+/// The registers of the XADC behind the FIFOs of its interface.
+struct AdcFixture : Fixture {
+  AdcFixture() {
+    state().on_write[ps_xadc::base + XADCPS_CMDFIFO_OFFSET] = [this](std::uint32_t word) {
+      const std::uint32_t at = (word & XADCPS_JTAG_ADDR_MASK) >> XADCPS_JTAG_ADDR_SHIFT;
+      if ((word & XADCPS_JTAG_CMD_MASK) == XADCPS_JTAG_CMD_WRITE_MASK)
+        inside[at] = word & XADCPS_JTAG_DATA_MASK;
+      answer = std::exchange(result, inside[at]);
+    };
+    state().on_read[ps_xadc::base + XADCPS_RDFIFO_OFFSET] = [this] { return answer; };
+    adc.Config.BaseAddress = ps_xadc::base;
+    adc.IsReady = XIL_COMPONENT_IS_READY;
+  }
+  std::map<std::uint32_t, std::uint32_t> inside;
+  std::uint32_t answer = 0;  ///< to the command before
+  std::uint32_t result = 0;
+  XAdcPs adc{};
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(xadcps, AdcFixture)
+
+BOOST_AUTO_TEST_CASE(modes_leave_the_rest_of_their_registers) {
+  inside = {{XADCPS_CFR0_OFFSET, 0x3102}, {XADCPS_CFR2_OFFSET, 0x0400}};
+  XAdcPs_SetMuxMode(&adc, 1, 0x11);
+  BOOST_CHECK_EQUAL(inside[XADCPS_CFR0_OFFSET], 0x3913u);
+  XAdcPs_SetMuxMode(&adc, 0, 0x11);
+  XAdcPs_SetSequencerEvent(&adc, 1);
+  BOOST_CHECK_EQUAL(inside[XADCPS_CFR0_OFFSET], 0x3313u);
+  BOOST_CHECK_EQUAL(XAdcPs_GetSamplingMode(&adc), 1);
+  XAdcPs_SetSequencerEvent(&adc, 0);
+  BOOST_CHECK_EQUAL(XAdcPs_GetSamplingMode(&adc), 0);
+  XAdcPs_SetPowerdownMode(&adc, XADCPS_PD_MODE_XADC);
+  BOOST_CHECK_EQUAL(inside[XADCPS_CFR2_OFFSET], 0x0420u);
+  BOOST_CHECK_EQUAL(XAdcPs_GetPowerdownMode(&adc), 0x40u);
+}
+
+BOOST_AUTO_TEST_CASE(an_over_temperature_of_the_users) {
+  inside[XADCPS_ATR_OT_UPPER_OFFSET] = 0xCA3F;
+  XAdcPs_DisableUserOverTemp(&adc);
+  BOOST_CHECK_EQUAL(inside[XADCPS_ATR_OT_UPPER_OFFSET], 0xCA30u);
+  XAdcPs_EnableUserOverTemp(&adc);
+  BOOST_CHECK_EQUAL(inside[XADCPS_ATR_OT_UPPER_OFFSET], 0xCA33u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <sleep.h>
+#include <xiltimer.h>
 #include <xtime_l.h>
 
 #include <vector>
@@ -72,6 +73,27 @@ BOOST_AUTO_TEST_CASE(sleep_counts_seconds) {
   BOOST_CHECK_EQUAL(sleep(2), 0);
   BOOST_CHECK_GE(counter, 666'666'686u);
   BOOST_CHECK_LE(counter, 666'666'686u + 4 * step);
+}
+
+BOOST_AUTO_TEST_CASE(msleep_counts_milliseconds) {
+  step = 10'000;
+  msleep(3);
+  BOOST_CHECK_GE(counter, 1'000'000u);
+  BOOST_CHECK_LE(counter, 1'000'000u + 4 * step);
+}
+
+// A tick is a whole part of a second: of 300 ms, the third.
+BOOST_AUTO_TEST_CASE(the_private_timer_ticks) {
+  constexpr std::uint32_t private_timer = 0xF8F0'0600;
+  XTimer_SetInterval(10);
+  BOOST_CHECK_EQUAL(fake_hal::state().registers[private_timer], 3'333'333u);
+  BOOST_CHECK_EQUAL(fake_hal::state().registers[private_timer + 8], 7u);
+  XTimer_SetInterval(300);
+  BOOST_CHECK_EQUAL(fake_hal::state().registers[private_timer], 111'111'114u);
+  XTimer_SetInterval(5'000);
+  BOOST_CHECK_EQUAL(fake_hal::state().registers[private_timer], 333'333'343u);
+  XTimer_ClearTickInterrupt();
+  BOOST_CHECK_EQUAL(fake_hal::state().registers[private_timer + 12], 1u);
 }
 
 BOOST_AUTO_TEST_CASE(no_time_is_not_waited_for) {

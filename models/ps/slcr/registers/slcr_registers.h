@@ -102,6 +102,10 @@ constexpr std::uint32_t DDR_DFI_STATUS = 0x620;
 constexpr std::uint32_t MIO_PIN(unsigned pin) {
   return 0x700 + 4 * pin;
 }
+constexpr unsigned mio_pins = 54;
+namespace mio_pin {
+constexpr std::uint32_t PULLUP = 1u << 12;
+}  // namespace mio_pin
 constexpr std::uint32_t MIO_LOOPBACK = 0x804;
 constexpr std::uint32_t MIO_MST_TRI0 = 0x80C;
 constexpr std::uint32_t MIO_MST_TRI1 = 0x810;

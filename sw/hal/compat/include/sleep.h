@@ -11,9 +11,13 @@ extern "C" {
 
 int usleep(unsigned int useconds);
 unsigned int sleep(unsigned int seconds);
+void msleep(unsigned long mseconds);
 
 #ifdef __cplusplus
 }
 #endif
+
+#define usleep_A9 usleep
+#define sleep_A9 sleep
 
 #endif

@@ -70,6 +70,9 @@ extern "C" {
 #define XADCPS_AVG_64_SAMPLES 2U
 #define XADCPS_AVG_256_SAMPLES 3U
 
+#define XADCPS_PD_MODE_NONE 0U
+#define XADCPS_PD_MODE_ADCB 1U
+#define XADCPS_PD_MODE_XADC 2U
 #define XADCPS_SEQ_MODE_SAFE 0U
 #define XADCPS_SEQ_MODE_ONEPASS 1U
 #define XADCPS_SEQ_MODE_CONTINPASS 2U
@@ -116,6 +119,19 @@ void XAdcPs_SetCalibEnables(XAdcPs* InstancePtr, u16 Calibration);
 u16 XAdcPs_GetCalibEnables(XAdcPs* InstancePtr);
 void XAdcPs_SetAdcClkDivisor(XAdcPs* InstancePtr, u8 Divisor);
 u8 XAdcPs_GetAdcClkDivisor(XAdcPs* InstancePtr);
+
+/** `MuxMode` 1: an outer multiplexer is at `Channel`. */
+void XAdcPs_SetMuxMode(XAdcPs* InstancePtr, int MuxMode, u8 Channel);
+/** `Mode`: XADCPS_PD_MODE_… */
+void XAdcPs_SetPowerdownMode(XAdcPs* InstancePtr, u32 Mode);
+/** As the vendor's: the rest of the register, shifted. */
+u32 XAdcPs_GetPowerdownMode(XAdcPs* InstancePtr);
+/** 1: a conversion begins with an event. */
+void XAdcPs_SetSequencerEvent(XAdcPs* InstancePtr, int IsEventMode);
+int XAdcPs_GetSamplingMode(XAdcPs* InstancePtr);
+/** The threshold of an over-temperature is that of XADCPS_ATR_OT_UPPER. */
+void XAdcPs_EnableUserOverTemp(XAdcPs* InstancePtr);
+void XAdcPs_DisableUserOverTemp(XAdcPs* InstancePtr);
 
 void XAdcPs_SetSequencerMode(XAdcPs* InstancePtr, u8 SequencerMode);
 u8 XAdcPs_GetSequencerMode(XAdcPs* InstancePtr);

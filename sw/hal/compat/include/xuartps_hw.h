@@ -130,7 +130,13 @@ extern "C" {
 #define XUartPs_IsTransmitEmpty(InstancePtr)                                                       \
   ((XUartPs_ReadReg((InstancePtr)->Config.BaseAddress, XUARTPS_SR_OFFSET) & XUARTPS_SR_TXEMPTY) != \
    0U)
+#define XUartPs_IsTransmitFifoEmpty(BaseAddress) \
+  ((XUartPs_ReadReg(BaseAddress, XUARTPS_SR_OFFSET) & XUARTPS_SR_TXEMPTY) != 0U)
+#define XUartPs_IsTransmitActive(BaseAddress) \
+  ((XUartPs_ReadReg(BaseAddress, XUARTPS_SR_OFFSET) & XUARTPS_SR_TACTIVE) != 0U)
 
+/** Waits until the last bit is sent. */
+void XUartPs_WaitTransmitDone(UINTPTR BaseAddress);
 /** They wait for room and for a byte. */
 void XUartPs_SendByte(UINTPTR BaseAddress, u8 Data);
 u8 XUartPs_RecvByte(UINTPTR BaseAddress);
