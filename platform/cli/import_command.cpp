@@ -1,4 +1,6 @@
+#include <chip/block_design/driver_files.h>
 #include <chip/block_design/import_design.h>
+#include <chip/block_design/program_flow.h>
 #include <chip/block_design/shelf.h>
 #include <chip/handoff/handoff.h>
 #include <chip/handoff/rtl_sources.h>
@@ -121,6 +123,28 @@ std::vector<std::string> from_folder(const std::vector<std::string>& files,
   return paths;
 }
 
+/// Drivers of own IP, of the archive before those in the user's folders. A program that has the
+/// sources of one itself keeps them.
+std::vector<handoff::OwnDriver> drivers_of(const handoff::Handoff& handoff,
+                                           const handoff::RtlFinder& rtl,
+                                           const std::vector<std::string>& programs) {
+  std::vector<handoff::OwnDriver> drivers = handoff.drivers;
+  for (handoff::OwnDriver& driver : rtl.drivers(handoff)) drivers.push_back(std::move(driver));
+  const auto is_there = [&](const handoff::OwnDriver& driver) {
+    return std::any_of(programs.begin(), programs.end(), [&](const std::string& file) {
+      return driver.has(fs::path(file).filename().string());
+    });
+  };
+  drivers.erase(std::remove_if(drivers.begin(), drivers.end(), is_there), drivers.end());
+  return drivers;
+}
+
+std::vector<std::string> texts_of(const std::vector<std::string>& files) {
+  std::vector<std::string> texts;
+  for (const std::string& file : files) texts.push_back(vp::read_text(file, "program"));
+  return texts;
+}
+
 }  // namespace
 
 int import_handoff(const ImportOptions& options, std::ostream& out) {
@@ -130,8 +154,8 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
   }
   if (options.file.empty()) throw vp::InputError("import needs a hand-off: .hwh, .xsa or .hdf");
   const handoff::Handoff handoff = handoff::read_handoff(options.file, options.block_design);
-  const block_design::ImportedDesign design =
-      block_design::import_design(handoff, handoff::RtlFinder(options.rtl));
+  const handoff::RtlFinder rtl(options.rtl);
+  const block_design::ImportedDesign design = block_design::import_design(handoff, rtl);
   const fs::path folder = options.output.empty() ? handoff.name : options.output;
   const std::vector<std::string> sources = from_folder(options.programs, folder);
   host::prepare_output_folder(folder.string());
@@ -141,11 +165,21 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
     out << "wrote " << (folder / name).string() << "\n";
   };
   std::error_code ignored;
-  if (!sources.empty() || !options.rtl.empty() || !fs::exists(folder / "CMakeLists.txt", ignored))
-    write("CMakeLists.txt", block_design::import_cmake(handoff.name, design, sources));
   std::string problem;
-  const std::string xparameters = xparameters_of(folder, problem);
-  if (!xparameters.empty()) write("xparameters.h", xparameters);
+  std::string xparameters = xparameters_of(folder, problem);
+  const bool is_sdt = block_design::is_for_device_tree(texts_of(options.programs), xparameters);
+  if (!sources.empty() || !options.rtl.empty() || !fs::exists(folder / "CMakeLists.txt", ignored))
+    write("CMakeLists.txt", block_design::import_cmake(handoff.name, design, sources, is_sdt));
+  const block_design::DriverFiles drivers =
+      block_design::driver_files(handoff, drivers_of(handoff, rtl, options.programs), xparameters);
+  if (!xparameters.empty()) {
+    xparameters.insert(xparameters.rfind("\n#endif"), drivers.names);
+    write("xparameters.h", xparameters);
+  }
+  for (const auto& [name, text] : drivers.files) {
+    fs::create_directories((folder / "drivers" / name).parent_path());
+    write("drivers/" + name, text);
+  }
   write("pl.dtsi", block_design::device_tree(handoff));
   write("IMPORT.md", block_design::import_report(handoff, design, problem));
   const auto stubs = std::count_if(design.parts.begin(), design.parts.end(), [](const auto& part) {

@@ -118,6 +118,37 @@ BOOST_FIXTURE_TEST_CASE(other_commands_take_the_design, Imported) {
   BOOST_TEST(has(none.err, "design 'small' lacks its PS program 'build/small': build"), none.err);
 }
 
+BOOST_FIXTURE_TEST_CASE(a_sweep_finds_the_knee_of_a_clock, Imported) {
+  import();
+  // A stub would leave every verdict open: a GPIO is in the place of own_0.
+  std::string design = file("design.yaml");
+  for (const auto& [what, by] :
+       {std::pair("me:user:own:1.0", "xilinx.com:ip:axi_gpio:2.0"),
+        std::pair("    parameters:\n      WIDTH: 8\n", ""), std::pair("s00_axi_aclk", "s_axi_aclk"),
+        std::pair("S00_AXI: periph.M02_AXI", "S_AXI: periph.M02_AXI"),
+        std::pair("own_0.S00_AXI", "own_0.S_AXI")})
+    design = replaced(design, what, by);
+  kit::write_file(*this / "mine/design.yaml",
+                  design + "\nwork: {unit: packet, line: bytes wrong}\n");
+  kit::write_file(*this / "clock.yaml",
+                  std::string("title: The clock\nset: {design: mine/design.yaml}\n"
+                              "parameters:\n  program: [") +
+                      MARKERVP_IMPORTED +
+                      "]\n  ps.fclk_clk0.frequency: [80 MHz, 100 MHz, 111.111111 MHz]\n"
+                      "  pl.external_buttons.level: [3]\n");
+  const kit::Outcome swept = markervp({"sweep", "clock.yaml"});
+  BOOST_TEST(swept.exit_code == 0, swept.out + swept.err);
+  BOOST_TEST(has(swept.out, "3 of 3 points feasible"), swept.out);
+  const kit::Outcome front = markervp({"pareto", "out/clock"});
+  BOOST_TEST(front.exit_code == 0, front.out + front.err);
+  BOOST_TEST(has(front.out, "knee"), front.out);
+  kit::write_file(*this / "wrong.yaml",
+                  replaced(kit::read_file(*this / "clock.yaml"), "external_buttons.level",
+                           "axi_dma_0.lenght_width"));
+  BOOST_TEST(
+      has(markervp({"sweep", "wrong.yaml"}).err, "did you mean 'pl.axi_dma_0.length_width'"));
+}
+
 BOOST_FIXTURE_TEST_CASE(a_folder_of_the_users_is_left_alone, Imported) {
   import();
   std::filesystem::remove_all(*this / "mine/.import");

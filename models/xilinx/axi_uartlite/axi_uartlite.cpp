@@ -122,16 +122,24 @@ void AxiUartlite::edge() {
   if (sent_at_ <= now) {
     sent_at_ = vp::Clock::never;
     if (on_transmit) on_transmit(leaving_);
+    if (receiver_) receiver_->take(leaving_);
   }
   if (received_at_ <= now) {
     received_at_ = vp::Clock::never;
-    if (rx_.size() == fifo_depth) {
-      overrun_ = true;
-    } else {
-      rx_.push_back(line_.front());
-      if (rx_.size() == 1) pulse();
-    }
+    const std::uint8_t byte = line_.front();
     line_.pop_front();
+    take(byte);
+  }
+  update();
+}
+
+// Its last bit is there.
+void AxiUartlite::take(std::uint8_t byte) {
+  if (rx_.size() == fifo_depth) {
+    overrun_ = true;
+  } else {
+    rx_.push_back(byte);
+    if (rx_.size() == 1) pulse();
   }
   update();
 }

@@ -40,6 +40,8 @@ class AxiUartlite : public vp::Clocked, public vp::Ip, public board::SerialHost 
   vp::Signal<bool> interrupt{"interrupt"};
 
   void receive(std::string_view bytes) override;
+  /// Wires its tx to the rx of another one, of the same rate and format.
+  void connect(AxiUartlite& receiver) { receiver_ = &receiver; }
 
  private:
   void edge() override;
@@ -51,9 +53,11 @@ class AxiUartlite : public vp::Clocked, public vp::Ip, public board::SerialHost 
   std::uint64_t character_clocks() const;
   std::uint32_t status() const;
   void pulse();
+  void take(std::uint8_t byte);
   void update();
 
   std::deque<std::uint8_t> tx_, rx_, line_;
+  AxiUartlite* receiver_ = nullptr;
   std::uint8_t leaving_ = 0;
   bool enabled_ = false;  ///< of the interrupt
   bool overrun_ = false;

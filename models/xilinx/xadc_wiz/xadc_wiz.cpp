@@ -2,12 +2,17 @@
 
 #include <xilinx/common/estimate.h>
 
+#include <array>
+
 namespace xilinx {
 
 namespace {
 
 using namespace xadc_wiz;
 
+constexpr std::array alarm_pins{
+    "user_temp_alarm_out", "vccint_alarm_out",  "vccaux_alarm_out",  "vbram_alarm_out",
+    "vccpint_alarm_out",   "vccpaux_alarm_out", "vccddro_alarm_out", "ot_out"};
 constexpr std::uint64_t adcclk_per_conversion = 26;  // UG480
 
 vp::RegisterBankOptions wizard_options() {
@@ -33,6 +38,7 @@ XadcWiz::XadcWiz(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const Xadc
       gie_(s_axi_lite[GIER]),
       isr_(s_axi_lite[IPISR]),
       ier_(s_axi_lite[IPIER]) {
+  for (const char* pin : alarm_pins) alarm.emplace_back(pin);
   reset_converter();
   wire();
 }
@@ -61,8 +67,10 @@ void XadcWiz::wire() {
   for (unsigned n = 0; n < drp_count; ++n) {
     vp::Register& r = s_axi_lite[drp + 4 * n];
     r.computed_by([this, n] { return std::uint32_t{converter.read(n)}; });
-    r.after_write(
-        [this, n](std::uint32_t word) { converter.write(n, static_cast<std::uint16_t>(word)); });
+    r.after_write([this, n](std::uint32_t word) {
+      converter.write(n, static_cast<std::uint16_t>(word));
+      show_alarms();
+    });
   }
 }
 
@@ -76,6 +84,19 @@ void XadcWiz::reset() {
 void XadcWiz::reset_converter() {
   converter.reset();
   for (const auto& [address, word] : initial_) converter.write(address, word);
+  show_alarms();
+}
+
+void XadcWiz::set_input(unsigned channel, double value) {
+  converter.set(channel, value);
+  show_alarms();
+}
+
+// PG091: alarm_out is the logical or of the alarms, over-temperature apart.
+void XadcWiz::show_alarms() {
+  const std::uint8_t bits = converter.alarms();
+  for (std::size_t n = 0; n < alarm.size(); ++n) alarm[n] = (bits >> n & 1) != 0;
+  alarm_out = (bits & 0x7F) != 0;
 }
 
 void XadcWiz::before_end_of_elaboration() {

@@ -10,6 +10,7 @@
 #include <xadc_wiz_registers.h>
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <systemc>
 
@@ -37,9 +38,13 @@ class XadcWiz : public vp::Clocked, public vp::Ip, public board::AnalogueHost {
   vp::In<bool> s_axi_aresetn{"s_axi_aresetn"};  ///< may be left open
   vp::RegisterBank s_axi_lite;
   vp::Signal<bool> ip2intc_irpt{"ip2intc_irpt"};  ///< level, active high
+  /// The converter's alarms, bits as Xadc::alarms(); the wizard has a pin for each, and one for any
+  /// of 0 to 6.
+  std::deque<vp::Signal<bool>> alarm;
+  vp::Signal<bool> alarm_out{"alarm_out"};
 
   board::Xadc converter;
-  void set_input(unsigned channel, double value) override { converter.set(channel, value); }
+  void set_input(unsigned channel, double value) override;
 
  private:
   void edge() override;
@@ -50,6 +55,7 @@ class XadcWiz : public vp::Clocked, public vp::Ip, public board::AnalogueHost {
   void wire();
   void reset();
   void reset_converter();
+  void show_alarms();
   std::uint64_t conversion_clocks() const;
   std::uint32_t ends() const;
   void update();

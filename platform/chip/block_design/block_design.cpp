@@ -1,8 +1,10 @@
 #include <chip/block_design/block_design.h>
+#include <chip/block_design/place_ports.h>
 
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/text.h>
+#include <xilinx/axi_uartlite/axi_uartlite.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
 
@@ -37,6 +39,7 @@ BlockDesign::BlockDesign(sc_core::sc_module_name name, PlPorts& ports, const Des
   }
   place_all();
   for (const PlacedPart& part : design_.parts) join_pins(part);
+  join_serial_lines();
   join_streams();
   join_addresses();
   close_open_streams();
@@ -194,6 +197,24 @@ void BlockDesign::join_pins(const PlacedPart& part) {
   }
   for (const auto& [pin, join] : here.inputs) {
     if (here.open_input && part.pins.count(pin) == 0) here.open_input(pin);
+  }
+}
+
+// Each counts its bits with its own clock: what has another rate would read others.
+void BlockDesign::join_serial_lines() {
+  for (const PlacedPart& part : design_.parts) {
+    xilinx::AxiUartlite* receiver = placed(part.name).serial;
+    const PlacedPart* driver = receiver ? serial_driver(design_, part) : nullptr;
+    if (!driver) continue;
+    xilinx::AxiUartlite& sender = *placed(driver->name).serial;
+    const bool is_same = sender.baudrate.get() == receiver->baudrate.get() &&
+                         sender.data_bits.get() == receiver->data_bits.get() &&
+                         sender.use_parity.get() == receiver->use_parity.get();
+    if (!is_same) {
+      refuse(part.pins.at("rx"),
+             "and " + part.name + ".rx have other baud rates or formats: give both the same");
+    }
+    sender.connect(*receiver);
   }
 }
 

@@ -59,6 +59,7 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   vp::Clock* clock_of(const End& source);
   vp::SignalBase& signal_of(const End& source);
   void join_pins(const PlacedPart& part);
+  void join_serial_lines();
   void join_streams();
   void join_stream(const End& master, const End& slave);
   vp::AxiStream& make_stream(const End& master);

@@ -42,8 +42,9 @@ std::string import_report(const handoff::Handoff& handoff, const ImportedDesign&
 std::string device_tree(const handoff::Handoff& handoff);
 
 /// CMakeLists.txt of an imported design: its RTL, and its PS program of `sources`, as CMake finds
-/// them from the folder. None: of what lies in its folder `software`.
+/// them from the folder, with what `drivers/` has. None: of what lies in its folder `software`.
+/// `is_sdt`: they are for the flow with a system device tree.
 std::string import_cmake(const std::string& name, const ImportedDesign& design,
-                         const std::vector<std::string>& sources);
+                         const std::vector<std::string>& sources, bool is_sdt);
 
 }  // namespace platform::block_design

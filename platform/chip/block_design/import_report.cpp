@@ -113,7 +113,11 @@ std::string import_report(const Handoff& handoff, const ImportedDesign& design,
          "design.yaml\n"
          "cmake -S . -B build -DCMAKE_PREFIX_PATH=<where markervp is installed>\ncmake --build "
          "build\n"
-         "markervp run --design design.yaml\n```\n";
+         "markervp run --design design.yaml\n```\n\n"
+         "If the program wants a header of the vendor's that is missing, name its drivers: "
+         "`-DVENDOR_BSP=<BSP>` for the first `cmake`, the\n`libsrc` of a board support package or "
+         "a "
+         "checkout of the vendor's `embeddedsw`.\n";
 }
 
 namespace {
@@ -137,10 +141,36 @@ std::string rtl_targets(const ImportedDesign& design) {
   return text;
 }
 
+/// The program, with the drivers of the design's own IP. HLS writes
+/// one driver for Linux and for bare metal: programs of the vendor's tools run on bare metal.
+std::string program_target(const std::string& name, bool is_sdt) {
+  return "file(GLOB drivers CONFIGURE_DEPENDS drivers/*/*.c)\n"
+         "file(GLOB driver_folders LIST_DIRECTORIES true CONFIGURE_DEPENDS drivers/*)\n"
+         "set(VENDOR_BSP \"\" CACHE PATH \"the vendor's drivers, in the place of markervp's: "
+         "libsrc of a BSP, or embeddedsw\")\n"
+         "if(VENDOR_BSP)\n  set(vendor VENDOR_BSP \"${VENDOR_BSP}\")\nendif()\n"
+         "if(sources)\n  markervp_add_program(" +
+         name +
+         " SOURCES ${sources} ${drivers} LIBRARIES markervp::compat ${vendor})\n"
+         "  # xparameters.h of this design, before that of the package.\n"
+         "  target_include_directories(" +
+         name +
+         " BEFORE PRIVATE \"${CMAKE_CURRENT_SOURCE_DIR}\" ${driver_folders})\n"
+         "  # Drivers of HLS are for Linux, too, where the compiler says so.\n"
+         "  target_compile_options(" +
+         name + " PRIVATE -U__linux__)\n" +
+         (is_sdt ? "  # It names devices as Vitis does from 2023.2 on.\n"
+                   "  target_compile_definitions(" +
+                       name + " PRIVATE SDT)\n"
+                 : "") +
+         "  set_target_properties(" + name +
+         " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\nendif()\n";
+}
+
 }  // namespace
 
 std::string import_cmake(const std::string& name, const ImportedDesign& design,
-                         const std::vector<std::string>& sources) {
+                         const std::vector<std::string>& sources, bool is_sdt) {
   const std::string rtl = rtl_targets(design);
   std::string text =
       "# What belongs to this design: its PS program, in C or C++, as written for the vendor's "
@@ -156,14 +186,7 @@ std::string import_cmake(const std::string& name, const ImportedDesign& design,
       (rtl.empty() ? "" : " rtl") + ")\n\n" + rtl;
   text += sources.empty() ? "file(GLOB sources CONFIGURE_DEPENDS software/*.c software/*.cpp)\n"
                           : "set(sources" + quoted_lines(sources) + ")\n";
-  return text + "if(sources)\n  markervp_add_program(" + name +
-         " SOURCES ${sources} LIBRARIES markervp::compat)\n"
-         "  # xparameters.h of this design, before that of the package.\n"
-         "  target_include_directories(" +
-         name +
-         " BEFORE PRIVATE \"${CMAKE_CURRENT_SOURCE_DIR}\")\n"
-         "  set_target_properties(" +
-         name + " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\nendif()\n";
+  return text + program_target(name, is_sdt);
 }
 
 }  // namespace platform::block_design

@@ -20,6 +20,10 @@
 #include <vp/signal.h>
 #include <xilinx/axi_dma/memory_port.h>
 
+namespace xilinx {
+class AxiUartlite;
+}
+
 namespace platform::block_design {
 
 using RegionSocket = tlm_utils::simple_initiator_socket<vp::MmLink>;
@@ -52,6 +56,7 @@ struct Placed {
   std::map<std::string, vp::Clock*> clocks = {};  ///< outputs that are clocks
   std::map<std::string, std::function<void(vp::SignalBase& source)>> inputs = {};
   std::set<std::string> unused_inputs = {};  ///< that change nothing; and clocks
+  xilinx::AxiUartlite* serial = nullptr;     ///< whose pins rx and tx carry characters, not levels
   std::map<std::string, MasterPort> masters = {};
   std::map<std::string, SlavePort> slaves = {};
   std::map<std::string, StreamPort> stream_masters = {}, stream_slaves = {};

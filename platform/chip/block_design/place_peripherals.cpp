@@ -119,8 +119,10 @@ Placed place_uartlite(const Placement& at) {
   Placed placed;
   placed.slaves = {{"S_AXI", registers(uart->s_axi)}};
   placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", uart->s_axi_aresetn)}};
-  leave_to_board(at, placed, {"rx"});
+  if (!serial_driver(at.design, at.part)) leave_to_board(at, placed, {"rx"});
+  placed.unused_inputs.insert("rx");
   placed.outputs = {{"interrupt", &uart->interrupt}};
+  placed.serial = uart.get();
   placed.object = std::move(uart);
   return placed;
 }
@@ -216,12 +218,21 @@ Placed place_xadc(const Placement& at) {
   leave_to_board(at, placed, {"vp_in", "vn_in"});
   for (unsigned n = 0; n < board::Xadc::aux_count; ++n)
     leave_to_board(at, placed, {"vauxp" + std::to_string(n), "vauxn" + std::to_string(n)});
-  placed.outputs = {{"ip2intc_irpt", &wizard->ip2intc_irpt}};
+  placed.outputs = {{"ip2intc_irpt", &wizard->ip2intc_irpt}, {"alarm_out", &wizard->alarm_out}};
+  for (auto& pin : wizard->alarm) placed.outputs[pin.basename()] = &pin;
   placed.object = std::move(wizard);
   return placed;
 }
 
 }  // namespace
+
+const PlacedPart* serial_driver(const DesignFile& design, const PlacedPart& part) {
+  const auto rx = part.pins.find("rx");
+  const PlacedPart* driver = rx == part.pins.end() ? nullptr : design.part(rx->second.part);
+  const bool is_line = driver && !driver->is_stub() && driver->rule() &&
+                       driver->rule()->ip == "axi_uartlite" && rx->second.port == "tx";
+  return is_line ? driver : nullptr;
+}
 
 Placer peripheral_placer(const std::string& ip) {
   static const std::map<std::string, Placer> placers{

@@ -53,6 +53,9 @@ inline MasterPort memory_master(xilinx::MemoryPort& port) {
 using Placer = Placed (*)(const Placement& at);
 Placer peripheral_placer(const std::string& ip);
 
+/// The UART Lite whose `tx` drives the `rx` of this one; null: none does.
+const PlacedPart* serial_driver(const DesignFile& design, const PlacedPart& part);
+
 /// A clock manager of the fabric: with registers, or without.
 Placed place_clock_manager(const Placement& at);
 

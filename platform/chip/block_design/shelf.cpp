@@ -127,7 +127,7 @@ IpRule iic() {
 IpRule uartlite() {
   return {"axi_uartlite",
           Kind::model,
-          "AXI UART Lite (PG142)",
+          "AXI UART Lite (PG142); `tx` may lead to the `rx` of another one",
           {{"C_BAUDRATE", "9600", {}, 110, 921'600},
            {"C_DATA_BITS", "8", {"5", "6", "7", "8"}},
            {"C_USE_PARITY", "0", {"0", "1"}},
@@ -243,7 +243,8 @@ std::vector<IpRule> rules() {
       quad_spi(),
       stream_fifo(),
       central_dma(),
-      {"xadc_wiz", Kind::model, "XADC with registers (PG091, UG480)", converter_parameters()},
+      {"xadc_wiz", Kind::model, "XADC with registers and alarms (PG091, UG480)",
+       converter_parameters()},
       {"axi_interconnect", Kind::bus,
        "AXI Interconnect (PG059): a way for addresses, with `read_latency` and `write_latency`"},
       {"smartconnect", Kind::bus,

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <chip/handoff/own_driver.h>
+
 /// What a hand-off of Vivado (.hwh, .xsa, .hdf) says of a block design, as plain values.
 namespace platform::handoff {
 
@@ -85,6 +87,7 @@ struct Handoff {
   std::vector<BusInterface> interfaces;
   std::vector<Module> modules;     ///< by instance
   std::vector<std::string> notes;  ///< what a reader should know of the file
+  std::vector<OwnDriver> drivers;  ///< that an archive holds of own IP
 
   const Module* module(const std::string& instance) const;
   /// The processing system.
@@ -95,6 +98,11 @@ struct Handoff {
 /// empty. Throws vp::InputError with file and line for what is damaged, is for another family, has
 /// no processing system, or holds several designs.
 Handoff read_handoff(const std::string& file, const std::string& design = {});
+
+/// What is said of a hand-off that is too old.
+constexpr const char* in_pieces =
+    "lists the processing system in pieces (ps7_…), as Vivado did until 2014: export the hardware "
+    "again with a later one";
 
 /// The same for the text of a .hwh.
 Handoff read_hwh(std::string text, const std::string& origin);

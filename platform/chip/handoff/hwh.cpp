@@ -40,6 +40,7 @@ class HwhReader {
     handoff_.tool = attribute(root_, "VIVADOVERSION");
     handoff_.date = attribute(root_, "TIMESTAMP");
     read_system(only("SYSTEMINFO"));
+    refuse_pieces();
     for (const auto& port : items(root_, "EXTERNALPORTS", "PORT"))
       handoff_.ports.push_back(read_port(port));
     for (const auto& bus : items(root_, "EXTERNALINTERFACES", "BUSINTERFACE"))
@@ -56,6 +57,13 @@ class HwhReader {
   }
 
  private:
+  void refuse_pieces() {
+    for (const auto& module : items(root_, "MODULES", "MODULE")) {
+      if (attribute(module, "MODTYPE") == "ps7_cortexa9")
+        xml_.fail(module, std::string("it ") + in_pieces);
+    }
+  }
+
   pugi::xml_node only(const char* name) {
     const pugi::xml_node node = root_.child(name);
     if (!node) xml_.fail(root_, std::string("no <") + name + "> in it: export it again");

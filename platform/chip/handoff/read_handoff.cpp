@@ -55,6 +55,20 @@ bool lists_pieces(const Archive& archive) {
   });
 }
 
+/// The drivers of own IP, which only archives hold.
+std::vector<OwnDriver> drivers_in(const Archive& archive) {
+  std::vector<PathAndText> files;
+  for (const std::string& name : archive.names())
+    if (is_of_driver(name)) files.emplace_back(name, archive.read(name));
+  return own_drivers(files);
+}
+
+Handoff read_member(const Archive& archive, const std::string& file, const std::string& name) {
+  Handoff handoff = read_hwh(archive.read(name), file + ":" + name);
+  handoff.drivers = drivers_in(archive);
+  return handoff;
+}
+
 Handoff read_archive(const Archive& archive, const std::string& file, const std::string& design) {
   std::vector<std::string> names = listed_designs(archive, file);
   if (names.empty()) names = likely_designs(archive);
@@ -62,14 +76,12 @@ Handoff read_archive(const Archive& archive, const std::string& file, const std:
     const bool has_hwh =
         std::any_of(archive.names().begin(), archive.names().end(),
                     [](const std::string& name) { return ends_with(name, ".hwh"); });
-    throw vp::InputError(
-        "'" + file + "' " +
-        (!has_hwh ? "holds no hand-off (.hwh): export the hardware again"
-         : lists_pieces(archive)
-             ? "lists the processing system in pieces (ps7_…), as Vivado did until "
-               "2014: export the hardware again with a later one"
-             : "holds no hand-off with a processing_system7: it is for another "
-               "family, or of an IP alone"));
+    throw vp::InputError("'" + file + "' " +
+                         (!has_hwh ? "holds no hand-off (.hwh): export the hardware again"
+                          : lists_pieces(archive)
+                              ? in_pieces
+                              : "holds no hand-off with a processing_system7: it is for another "
+                                "family, or of an IP alone"));
   }
   std::vector<std::string> choices;
   for (const std::string& name : names) choices.push_back(stem(name));
@@ -80,13 +92,13 @@ Handoff read_archive(const Archive& archive, const std::string& file, const std:
                            vp::one_of(choices));
     }
     const std::string& name = names[static_cast<std::size_t>(found - choices.begin())];
-    return read_hwh(archive.read(name), file + ":" + name);
+    return read_member(archive, file, name);
   }
   if (names.size() > 1) {
     throw vp::InputError("'" + file + "' holds " + std::to_string(names.size()) +
                          " designs: choose one with --block-design, " + vp::one_of(choices));
   }
-  return read_hwh(archive.read(names.front()), file + ":" + names.front());
+  return read_member(archive, file, names.front());
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ namespace platform::handoff {
 
 namespace {
 
-class Component {
+class ComponentReader {
  public:
-  Component(const std::string& text, const std::string& origin)
+  ComponentReader(const std::string& text, const std::string& origin)
       : xml_(text, origin),
         prefix_(text.find("<ipxact:component") != text.npos ? "ipxact:" : "spirit:") {}
 
@@ -157,7 +157,7 @@ class Component {
 
 std::vector<RegisterMap> registers_of_component(const std::string& text,
                                                 const std::string& origin) {
-  return Component(text, origin).read();
+  return ComponentReader(text, origin).read();
 }
 
 }  // namespace platform::handoff

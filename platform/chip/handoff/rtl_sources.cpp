@@ -146,12 +146,40 @@ RtlSources RtlFinder::find(const Module& module) const {
   return sources;
 }
 
-RtlSources RtlFinder::look(const Module& module) const {
+const std::vector<std::string>& RtlFinder::components_of(const Module& module) const {
+  static const std::vector<std::string> none;
   const auto vlnv = vp::split(module.vlnv, ':');
   const auto packaged_as = components_.find(vlnv[0] + ":" + vlnv[1] + ":" + vlnv[2]);
-  if (packaged_as == components_.end()) return by_name(module);
+  return packaged_as == components_.end() ? none : packaged_as->second;
+}
+
+std::vector<OwnDriver> RtlFinder::drivers(const Handoff& handoff) const {
+  std::set<std::string> seen;
+  std::vector<OwnDriver> result;
+  for (const Module& module : handoff.modules) {
+    for (const std::string& component : components_of(module)) {
+      const fs::path folder = fs::path(component).parent_path();
+      std::error_code ignored;
+      if (!seen.insert(component).second || !fs::is_directory(folder / "drivers", ignored))
+        continue;
+      std::vector<PathAndText> files;
+      for (const auto& entry : fs::recursive_directory_iterator(folder / "drivers")) {
+        const std::string name = entry.path().lexically_relative(folder).generic_string();
+        if (entry.is_regular_file(ignored) && is_of_driver(name))
+          files.emplace_back(name, vp::read_text(entry.path().string(), "driver", largest_source));
+      }
+      std::sort(files.begin(), files.end());
+      for (OwnDriver& driver : own_drivers(files)) result.push_back(std::move(driver));
+    }
+  }
+  return result;
+}
+
+RtlSources RtlFinder::look(const Module& module) const {
+  const std::vector<std::string>& components = components_of(module);
+  if (components.empty()) return by_name(module);
   RtlSources last;
-  for (const std::string& component : packaged_as->second) {
+  for (const std::string& component : components) {
     last = packaged(module, component);
     if (!last.files.empty()) return last;
   }

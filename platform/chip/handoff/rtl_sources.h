@@ -26,10 +26,14 @@ class RtlFinder {
   explicit RtlFinder(const std::vector<std::string>& folders);
 
   RtlSources find(const Module& module) const;
+  /// The drivers that lie beside the component.xml of the design's IP. Throws vp::InputError for a
+  /// file that cannot be read.
+  std::vector<OwnDriver> drivers(const Handoff& handoff) const;
   /// No folder was named.
   bool empty() const { return empty_; }
 
  private:
+  const std::vector<std::string>& components_of(const Module& module) const;
   RtlSources look(const Module& module) const;
   void add_file(const std::string& path);
   RtlSources packaged(const Module& module, const std::string& component) const;

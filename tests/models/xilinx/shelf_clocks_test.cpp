@@ -141,6 +141,27 @@ BOOST_AUTO_TEST_CASE(xadc_wiz_measures_both_signs_where_its_build_says_so) {
   BOOST_TEST(wizard.converter.read(board::Xadc::vaux_0) == 0xC000u);
 }
 
+BOOST_AUTO_TEST_CASE(xadc_wiz_has_a_pin_for_each_alarm) {
+  Bench b;
+  xilinx::XadcWizBuild build;
+  // 85 and 60 degrees for the die; the limits of the voltages let everything pass.
+  build.initial = {{0x41, 0x2000}, {0x50, 0xB5ED}, {0x54, 0xA93A}};
+  for (const unsigned upper : {0x51u, 0x52u, 0x58u, 0x59u, 0x5Au, 0x5Bu})
+    build.initial[upper] = 0xFFFF;
+  xilinx::XadcWiz wizard("xadc_wiz_0", b.clock, build);
+  wizard.set_input(board::Xadc::temperature, 70);
+  BOOST_TEST(!wizard.alarm_out.get());
+  wizard.set_input(board::Xadc::temperature, 90);
+  BOOST_TEST(wizard.alarm_out.get());
+  BOOST_TEST(wizard.alarm[0].get());
+  BOOST_TEST(!wizard.alarm[1].get());
+  BOOST_TEST(std::string(wizard.alarm[0].basename()) == "user_temp_alarm_out");
+  std::uint32_t word = 0xFFFF;
+  vp::Register& limit = wizard.s_axi_lite[xadc_wiz::drp + 4 * 0x50];
+  wizard.s_axi_lite.access(limit, false, xadc_wiz::drp + 4 * 0x50, word);
+  BOOST_TEST(!wizard.alarm_out.get(), "software moves the limit");
+}
+
 BOOST_AUTO_TEST_CASE(xadc_wiz_shows_inputs_and_ends_of_sequences) {
   using namespace xadc_wiz;
   Bench b;

@@ -224,12 +224,14 @@ namespace {
 /// RTL behind GP0, whose registers a file of this text describes.
 struct Described : kit::TemporaryFolder {
   explicit Described(const std::string& rdl) { kit::write_file(*this / "copier.rdl", rdl); }
-  facts::HardwareMap map() const {
+  facts::HardwareMap map(const std::string& pin = "mode") const {
     const std::string design =
         "name: copying\nsettings:\n  device: xc7z020-1\nparts:\n"
         "  ps:\n    ip: xilinx.com:ip:processing_system7:5.5\n"
         "  copier:\n    ip: own:user:everything:1.0\n    rtl: " MARKERVP_EVERYTHING_RTL
-        "\n    pins:\n      ap_clk: ps.FCLK_CLK0\n      mode: external.mode\n"
+        "\n    pins:\n      ap_clk: ps.FCLK_CLK0\n      " +
+        pin +
+        ": external.mode\n"
         "    buses:\n      s_axi_control: ps.M_AXI_GP0\n"
         "addresses:\n  ps.M_AXI_GP0:\n    copier.s_axi_control: [0x43C00000, 64 KiB]\n"
         "external:\n  mode: {width: 8, level: 0}\n";
@@ -257,6 +259,13 @@ BOOST_AUTO_TEST_CASE(registers_of_rtl_are_in_the_map) {
   // It stays a device of its address for software.
   BOOST_TEST(map.xparameters.find("#define XPAR_COPIER_S_AXI_CONTROL_BASEADDR 0x43C00000U") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(rtl_that_lacks_a_pin_of_the_design_is_refused_by_name) {
+  const std::string refused = input_error([] { Described("addrmap none { };").map("mode_2"); });
+  BOOST_TEST(refused.find("'copier.mode_2' is no input of own:user:everything:1.0: did you mean "
+                          "'mode'?") != std::string::npos,
+             refused);
 }
 
 BOOST_AUTO_TEST_CASE(a_damaged_description_of_registers_is_refused_with_its_line) {

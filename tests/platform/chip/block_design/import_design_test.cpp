@@ -1,7 +1,9 @@
 // A hand-off as a design: what becomes of each part, and what is said of it.
 #include <chip/block_design/design_file.h>
 #include <chip/block_design/diagram.h>
+#include <chip/block_design/driver_files.h>
 #include <chip/block_design/import_design.h>
+#include <chip/block_design/program_flow.h>
 #include <boost/test/unit_test.hpp>
 
 #include <string>
@@ -90,6 +92,52 @@ BOOST_AUTO_TEST_CASE(what_has_no_model_is_a_stub_with_a_reason) {
   BOOST_TEST(has(report, "| `clk_0.pixel_clk` | 74.25 MHz |"));
   const std::string with_problem = import_report(handoff, design, "a reason");
   BOOST_TEST(has(with_problem, "cannot be built as it is:** a reason"));
+}
+
+BOOST_AUTO_TEST_CASE(drivers_of_own_ip_have_the_tables_of_their_instances) {
+  platform::handoff::Handoff handoff = read_hwh(kit::small_handoff().text(), "small.hwh");
+  for (auto& module : handoff.modules)
+    if (module.ip() == "own") module.parameters["C_S00_AXI_BASEADDR"] = "0x43C00000";
+  platform::handoff::OwnDriver driver;
+  driver.name = "own_v1_0";
+  driver.peripherals = {"own"};
+  driver.sources = {{"xown.c", "int own;"}};
+  driver.scripts = {
+      {"xdefine_include_file",
+       {"xparameters.h", "XOwn", "NUM_INSTANCES", "DEVICE_ID", "C_S00_AXI_BASEADDR"}},
+      {"xdefine_canonical_xpars", {"xparameters.h", "XOwn", "DEVICE_ID", "C_S00_AXI_BASEADDR"}},
+      {"xdefine_config_file", {"xown_g.c", "XOwn", "DEVICE_ID", "C_S00_AXI_BASEADDR"}}};
+  const DriverFiles files =
+      driver_files(handoff, {driver, driver}, "#define XPAR_OWN_0_S00_AXI_BASEADDR 0x43C00000U\n");
+  BOOST_TEST(files.names ==
+             "\n/* Drivers of the design's own IP */\n#define XPAR_XOWN_NUM_INSTANCES 1\n"
+             "#define XPAR_OWN_0_DEVICE_ID 0\n#define XPAR_XOWN_0_DEVICE_ID 0\n"
+             "#define XPAR_XOWN_0_S00_AXI_BASEADDR 0x43C00000\n");
+  BOOST_TEST_REQUIRE(files.files.size() == 2u, "one of each name");
+  BOOST_TEST(files.files[0].first == "own_v1_0/xown.c");
+  BOOST_TEST(files.files[1].first == "own_v1_0/xown_g.c");
+  BOOST_TEST(has(files.files[1].second,
+                 "XOwn_ConfigTable[] = {\n  {XPAR_OWN_0_DEVICE_ID, "
+                 "XPAR_OWN_0_S00_AXI_BASEADDR},\n};"));
+  driver.peripherals = {"another"};
+  BOOST_TEST(driver_files(handoff, {driver}, "").files.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_program_shows_its_flow_by_the_names_that_it_uses) {
+  const std::string xparameters =
+      "#define XPAR_A_0_BASEADDR 1\n#ifndef SDT\n#define XPAR_A_0_DEVICE_ID 0\n#endif\n"
+      "#ifdef SDT\n#define XPAR_XA_0_BASEADDR 1\n#endif\n";
+  const auto sdt = [&](const std::string& program) {
+    return is_for_device_tree({"int main(void) {}", program}, xparameters);
+  };
+  BOOST_TEST(sdt("f(XPAR_XA_0_BASEADDR);"));
+  BOOST_TEST(!sdt("f(XPAR_A_0_BASEADDR);"), "both have it");
+  BOOST_TEST(!sdt("#ifdef SDT\nf(XPAR_XA_0_BASEADDR)\n#else\nf(XPAR_A_0_DEVICE_ID)"));
+  BOOST_TEST(!sdt("f(XPAR_XA_0_BASEADDR_OF_ANOTHER);"));
+  BOOST_TEST(!is_for_device_tree({}, xparameters));
+  const ImportedDesign design = imported(kit::small_handoff());
+  BOOST_TEST(has(import_cmake("small", design, {"main.c"}, true), "PRIVATE SDT)"));
+  BOOST_TEST(!has(import_cmake("small", design, {"main.c"}, false), "SDT)"));
 }
 
 BOOST_AUTO_TEST_CASE(devices_for_linux) {

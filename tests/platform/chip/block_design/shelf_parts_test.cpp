@@ -159,6 +159,45 @@ BOOST_AUTO_TEST_CASE(software_changes_the_clock_of_other_parts) {
   BOOST_TEST(chip.part<xilinx::AxiTimer>("slow").clock().frequency_hz() == 125'000'000u);
 }
 
+BOOST_AUTO_TEST_CASE(a_serial_line_leads_from_one_uart_to_another) {
+  using namespace axi_uartlite;
+  const std::string on = clocked;
+  const auto second = [&](const std::string& baud) {
+    return part("second", "axi_uartlite:2.0", "C_BAUDRATE: " + baud + ", C_USE_PARITY: 1",
+                on + ", rx: axi_uartlite_0.tx", "S_AXI: bus.M11_AXI") +
+           "addresses:\n  ps.M_AXI_GP0:\n    second.S_AXI: [0x42C10000, 64 KiB]\n";
+  };
+  const std::string start = "addresses:\n  ps.M_AXI_GP0:\n";
+  const std::string refused = refusal(start, second("9600"));
+  BOOST_TEST(has(refused, "other baud rates or formats"), refused);
+  BuiltDesign chip(replaced(shelf_design(), start, second("115200")));
+  auto& first = chip.part<xilinx::AxiUartlite>("axi_uartlite_0");
+  auto& other = chip.part<xilinx::AxiUartlite>("second");
+  BuiltDesign::pass_us(1);
+  BuiltDesign::write(first.s_axi, TX_FIFO, 'a');
+  BuiltDesign::pass_us(90);  // 11 bits at 115 200 baud take 95 us
+  BOOST_TEST((BuiltDesign::read(other.s_axi, STAT_REG) & stat::Rx_FIFO_Valid_Data) == 0u);
+  BuiltDesign::pass_us(10);
+  BOOST_TEST(BuiltDesign::read(other.s_axi, RX_FIFO) == 'a');
+  BOOST_TEST((BuiltDesign::read(first.s_axi, STAT_REG) & stat::Rx_FIFO_Valid_Data) == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(an_alarm_of_the_converter_is_a_wire) {
+  std::string design = replaced(shelf_design(), "In1: axi_iic_0.iic2intc_irpt",
+                                "In1: xadc_wiz_0.user_temp_alarm_out");
+  design = replaced(design, "C_ALARM_LIMIT_R0: 46573",
+                    "C_ALARM_LIMIT_R0: 46573, C_CONFIGURATION_R1: 8192");
+  BuiltDesign chip(design);
+  auto& xadc = chip.part<xilinx::XadcWiz>("xadc_wiz_0");
+  auto& outer = chip.part<xilinx::AxiIntc>("outer");
+  BuiltDesign::pass_us(1);
+  BuiltDesign::write(outer.s_axi, axi_intc::MER, axi_intc::mer::ME | axi_intc::mer::HIE);
+  BOOST_TEST((BuiltDesign::read(outer.s_axi, axi_intc::ISR) & 2) == 0u);
+  xadc.set_input(board::Xadc::temperature, 120);  // above 85, the limit
+  BuiltDesign::pass_us(1);
+  BOOST_TEST((BuiltDesign::read(outer.s_axi, axi_intc::ISR) & 2) == 2u);
+}
+
 BOOST_AUTO_TEST_CASE(what_is_not_modelled_is_refused_by_name) {
   BOOST_TEST(has(refusal("C_M_AXI_DATA_WIDTH: 64", "C_INCLUDE_SG: 1"),
                  "axi_cdma_0: C_INCLUDE_SG = 1 is not modelled, but 0"));

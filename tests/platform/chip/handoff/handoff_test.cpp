@@ -124,6 +124,15 @@ BOOST_AUTO_TEST_CASE(other_families_are_refused_by_name) {
              "does not model");
 }
 
+BOOST_AUTO_TEST_CASE(a_processing_system_in_pieces_is_refused) {
+  const std::string refused = refusal(
+      "<EDKSYSTEM VIVADOVERSION=\"2014.4\"><SYSTEMINFO ARCH=\"zynq\" DEVICE=\"7z020\" "
+      "NAME=\"x\"/><MODULES><MODULE MODTYPE=\"ps7_clockc\"/><MODULE "
+      "MODTYPE=\"ps7_cortexa9\"/></MODULES></EDKSYSTEM>");
+  BOOST_TEST(refused.find("it lists the processing system in pieces") != std::string::npos,
+             refused);
+}
+
 BOOST_AUTO_TEST_CASE(damaged_and_hostile_text_is_refused) {
   const std::string text = kit::small_handoff().text();
   const std::string bomb =
@@ -178,6 +187,37 @@ BOOST_AUTO_TEST_CASE(an_archive_says_which_hand_off_is_the_design) {
   BOOST_TEST(read_handoff(path, "other").file == "a.xsa:other.hwh");
   BOOST_TEST(input_error([&] { read_handoff(path, "none"); }).find("has no design 'none'") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(an_archive_has_the_drivers_of_own_ip) {
+  const kit::TemporaryFolder folder;
+  const std::string path = archive(
+      folder / "a.xsa",
+      {{"small.hwh", kit::small_handoff().text()},
+       {"drivers/own_v1_0/data/own.mdd", "OPTION supported_peripherals = (own_v1_0 other);"},
+       {"drivers/own_v1_0/data/own.tcl",
+        "xdefine_include_file $h \"xparameters.h\" \"XOwn\" \\\n  \"NUM_INSTANCES\" \\\n  "
+        "\"DEVICE_ID\"\n\"x\""},
+       {"drivers/own_v1_0/src/xown.c", "int own;"},
+       {"drivers/own_v1_0/src/xown_linux.c", "int linux;"},
+       {"drivers/own_v1_0/src/deep/er/xown.c", "int deeper;"},
+       {"drivers/nameless_v1_0/src/nameless.h", ""},
+       {"drivers/data/plain.mdd", "OPTION supported_peripherals = (plain);"},
+       {"drivers/src/plain.h", "int plain;"}});
+  const std::vector<OwnDriver> drivers = read_handoff(path).drivers;
+  BOOST_TEST_REQUIRE(drivers.size() == 2u, "without a description of its IP one is no use");
+  BOOST_TEST(drivers[0].name == "plain");
+  const OwnDriver& own = drivers[1];
+  BOOST_TEST(own.drives("own"));
+  BOOST_TEST(own.drives("other"));
+  BOOST_TEST(!own.drives("own_v1_0"));
+  BOOST_TEST(own.has("xown.c"));
+  BOOST_TEST(!own.has("xown_linux.c"));
+  BOOST_TEST_REQUIRE(own.sources.size() == 1u);
+  BOOST_TEST(own.sources[0].first == "xown.c");
+  const std::vector<std::string> words{"xparameters.h", "XOwn", "NUM_INSTANCES", "DEVICE_ID"};
+  BOOST_TEST(!is_of_driver("drivers/../src/hostile.h"));
+  BOOST_TEST(own.scripts.at("xdefine_include_file") == words, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(archives_that_are_no_archives) {

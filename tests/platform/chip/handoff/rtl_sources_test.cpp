@@ -109,12 +109,29 @@ BOOST_FIXTURE_TEST_CASE(an_imported_design_names_it, Folders) {
   BOOST_TEST(design.text.find("    rtl: build/own_0.so\n") != std::string::npos);
   BOOST_TEST(block_design::parse_design(design.text, "d.yaml").part("own_0")->rtl ==
              "build/own_0.so");
-  const std::string cmake = block_design::import_cmake("small", design, {});
+  const std::string cmake = block_design::import_cmake("small", design, {}, false);
   BOOST_TEST(cmake.find("COMPONENTS programs rtl)") != std::string::npos);
   BOOST_TEST(cmake.find("markervp_add_rtl(own_0 TOP own SOURCES\n  \"") != std::string::npos);
   BOOST_TEST(cmake.find("PARAMETERS WIDTH=8)") != std::string::npos);
   BOOST_TEST(block_design::import_report(handoff, design, "").find("| me:user:own:1.0 | RTL |") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(drivers_lie_beside_the_component) {
+  const Folders folders;
+  folders.write_component("", "hdl/own.v");
+  folders.write("ip/drivers/own_v1_0/data/own.mdd", "OPTION supported_peripherals = (own);");
+  folders.write("ip/drivers/own_v1_0/src/own.h", "int own;");
+  folders.write("plain/drivers/other_v1_0/data/other.mdd", "OPTION supported_peripherals = (own);");
+  folders.write("plain/drivers/other_v1_0/src/other.h", "");
+  handoff::Handoff handoff;
+  handoff.modules = {own(), own()};
+  const RtlFinder finder({folders.folder("ip"), folders.folder("plain")});
+  const auto drivers = finder.drivers(handoff);
+  BOOST_TEST_REQUIRE(drivers.size() == 1u, "of an IP of the design, once");
+  BOOST_TEST(drivers[0].name == "own_v1_0");
+  BOOST_TEST(drivers[0].sources.size() == 1u);
+  BOOST_TEST(finder.drivers(handoff::Handoff()).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,127 @@
+#include <chip/block_design/driver_files.h>
+
+#include <vp/text.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace platform::block_design {
+
+namespace {
+
+using handoff::Handoff;
+using handoff::Module;
+using handoff::OwnDriver;
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+/// The name in xparameters.h of a parameter of an IP: C_S00_AXI_BASEADDR is S00_AXI_BASEADDR.
+std::string plain(const std::string& parameter) {
+  return parameter.rfind("C_", 0) == 0 ? parameter.substr(2) : parameter;
+}
+
+/// Writes what the driver's script asks for (UG1043, "xdefine_…"): names by instance, by the driver
+/// and a number, and the table of its instances.
+class Tables {
+ public:
+  Tables(const OwnDriver& driver, const Handoff& handoff, const std::string& known)
+      : driver_(driver), known_(known) {
+    for (const Module& module : handoff.modules)
+      if (driver.drives(module.ip())) instances_.push_back(&module);
+  }
+
+  bool empty() const { return instances_.empty(); }
+
+  std::string names() {
+    std::string text;
+    const auto include = driver_.scripts.find("xdefine_include_file");
+    if (include != driver_.scripts.end()) {
+      define(text, upper(word(include->second, 1)) + "_NUM_INSTANCES",
+             std::to_string(instances_.size()));
+      each(text, include->second, 2, false);
+    }
+    const auto canonical = driver_.scripts.find("xdefine_canonical_xpars");
+    if (canonical != driver_.scripts.end()) each(text, canonical->second, 2, true);
+    return text;
+  }
+
+  /// "xfilter_g.c" and its text; "" if the driver has no table.
+  std::pair<std::string, std::string> table() const {
+    const auto config = driver_.scripts.find("xdefine_config_file");
+    if (config == driver_.scripts.end() || config->second.size() < 3) return {};
+    const std::string& file = config->second[0];
+    const std::string& name = config->second[1];
+    const std::size_t end = file.rfind("_g.c");
+    if (end == std::string::npos || file.find('/') != std::string::npos) return {};
+    std::string text = "#include \"xparameters.h\"\n#include \"" + file.substr(0, end) +
+                       ".h\"\n\n#ifndef SDT\n" + name + "_Config " + name + "_ConfigTable[] = {\n";
+    for (const Module* module : instances_) {
+      text += "  {";
+      for (std::size_t i = 2; i < config->second.size(); ++i)
+        text += (i == 2 ? "XPAR_" : ", XPAR_") + upper(module->instance) + "_" +
+                plain(config->second[i]);
+      text += "},\n";
+    }
+    return {file, text + "};\n#endif\n"};
+  }
+
+ private:
+  static std::string word(const std::vector<std::string>& words, std::size_t n) {
+    return n < words.size() ? words[n] : std::string();
+  }
+
+  void define(std::string& text, const std::string& name, const std::string& value) {
+    const std::string line = "#define XPAR_" + name + " ";
+    if (value.empty() || known_.find(line) != std::string::npos || !written_.insert(name).second)
+      return;
+    text += line + value + "\n";
+  }
+
+  void each(std::string& text, const std::vector<std::string>& words, std::size_t first,
+            bool by_driver) {
+    for (std::size_t n = 0; n < instances_.size(); ++n) {
+      const std::string number = std::to_string(n);
+      const std::string start =
+          by_driver ? upper(word(words, 1)) + "_" + number : upper(instances_[n]->instance);
+      for (std::size_t i = first; i < words.size(); ++i) {
+        if (words[i] == "NUM_INSTANCES") continue;
+        const std::string value = words[i] == "DEVICE_ID"
+                                      ? number
+                                      : handoff::parameter(instances_[n]->parameters, words[i]);
+        define(text, start + "_" + plain(words[i]), value);
+      }
+    }
+  }
+
+  const OwnDriver& driver_;
+  const std::string& known_;
+  std::vector<const Module*> instances_;
+  std::set<std::string> written_;
+};
+
+}  // namespace
+
+DriverFiles driver_files(const Handoff& handoff, const std::vector<OwnDriver>& drivers,
+                         const std::string& xparameters) {
+  DriverFiles result;
+  std::set<std::string> seen;
+  for (const OwnDriver& driver : drivers) {
+    Tables tables(driver, handoff, xparameters);
+    if (tables.empty() || !seen.insert(driver.name).second) continue;
+    for (const auto& [name, text] : driver.sources)
+      result.files.emplace_back(driver.name + "/" + name, text);
+    result.names += tables.names();
+    const auto [file, text] = tables.table();
+    if (!file.empty()) result.files.emplace_back(driver.name + "/" + file, text);
+  }
+  if (!result.names.empty())
+    result.names = "\n/* Drivers of the design's own IP */\n" + result.names;
+  return result;
+}
+
+}  // namespace platform::block_design
