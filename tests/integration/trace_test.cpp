@@ -302,12 +302,12 @@ BOOST_AUTO_TEST_CASE(a_run_says_which_fidelity_a_trace_chose_and_what_tlm_does_n
   const std::string asked = said("a.vcd", {"--fidelity", "clocked", "--trace-window", "0us:1us"});
   BOOST_TEST(asked.find("fidelity clocked") == std::string::npos, asked);
   const std::string tlm = said("t.vcd", {"--fidelity", "tlm"});
-  BOOST_TEST(
-      tlm.find("fidelity tlm does not play pl.sensor_input.pixel, .pixel_x, .pixel_y, "
-               "pl.image_stream.*, pl.global_threshold.thresh_*, .binary_*, "
-               "pl.clock_crossing.binary.*, pl.axi_threshold_bridge.thresh_seen, "
-               ".fifo_count, pl.binary_stream.*, pl.always: --fidelity clocked does") != std::string::npos,
-      tlm);
+  BOOST_TEST(tlm.find("fidelity tlm does not play pl.sensor_input.pixel, .pixel_x, .pixel_y, "
+                      "pl.image_stream.*, pl.global_threshold.thresh_*, .binary_*, "
+                      "pl.clock_crossing.binary.*, pl.axi_threshold_bridge.thresh_seen, "
+                      ".fifo_count, pl.binary_stream.*, pl.always: --fidelity clocked does") !=
+                 std::string::npos,
+             tlm);
   const std::set<std::string> clocked = moving(*this / "c.vcd"), frames = moving(*this / "t.vcd");
   std::set<std::string> still;
   std::set_difference(clocked.begin(), clocked.end(), frames.begin(), frames.end(),
