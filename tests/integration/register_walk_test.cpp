@@ -134,7 +134,10 @@ const std::map<Name, std::uint32_t>& constants() {
                                                   {{"axi_gpio_0", "GPIO2_TRI"}, all},
                                                   {{"axi_gpio_1", "GPIO_DATA"}, 0},
                                                   {{"axi_gpio_1", "GPIO_TRI"}, all},
-                                                  {{"axi_gpio_1", "GPIO2_TRI"}, all}};
+                                                  {{"axi_gpio_1", "GPIO2_TRI"}, all},
+                                                  // Pull-ups, which pins 2 to 8 lack.
+                                                  {{"gpio", "DATA_0_RO"}, 0xFFFF'FE03},
+                                                  {{"gpio", "DATA_1_RO"}, 0x003F'FFFF}};
   return list;
 }
 

@@ -675,7 +675,7 @@ test("sections without data are not there", () => open("short", async (page) => 
 }));
 
 test("a fault says how to have it again, with its waveforms", () => open("faults", async (page) => {
-  assert.deepEqual(await page.locator("#noticed tbody td").allTextContents(), ["80", "10", "3", "5", "0", "2"]);
+  assert.deepEqual(await page.locator("#noticed tbody td").allTextContents(), ["80", "10", "3", "5", "1", "1"]);
   await page.locator("#shots").getByRole("button", { name: "17", exact: true }).click();
   assert.deepEqual(await page.locator("#shot pre").allTextContents(), ["markervp run z1.0 --set 'inject=[…]'", "markervp run z1.0 --set 'inject=[…]' --trace fault-17.fst"]);
   assert.match(await page.locator("#shot").textContent(), /<img src=x/);

@@ -52,7 +52,7 @@ function frameOf(index, random, input) {
 /** A campaign: of each class some faults, the worst of which are listed. */
 function faults({ hostile = "" } = {}) {
   const outcomes = ["masked", "recovered", "reported", "unnoticed", "hang", "broken"];
-  const counts = (...numbers) => ({ faults: numbers.reduce((a, b) => a + b, 0), ...Object.fromEntries(outcomes.map((name, i) => [name, numbers[i] ?? 0])), interval: Object.fromEntries(outcomes.map((name) => [name, [0.01, 0.2]])) });
+  const counts = (...numbers) => ({ faults: numbers.reduce((a, b) => a + b, 0), ...Object.fromEntries(outcomes.map((name, i) => [name, numbers[i] ?? 0])), silent_hangs: numbers[4] ? 1 : 0, interval: Object.fromEntries(outcomes.map((name) => [name, [0.01, 0.2]])) });
   const shot = (number, outcome) => ({ number, class: "bus", module: "pl.axi_dma_0", at_us: 12.5 * number, times: 1, outcome, fault: `{what: slverr, where: pl.axi_dma_0.link, at: ${number} us}`, sign: hostile, again: "markervp run z1.0 --set 'inject=[…]'" });
   return { faults: { seed: 1, units: 3, end_us: 35760, design: "thesis", inputs: ["z1.0", "z2.0"], outcomes, all: counts(80, 10, 5, 3, 2), classes: { bus: counts(40, 10, 5, 0, 2), memory: counts(40, 0, 0, 3) },
     modules: { "pl.axi_dma_0": counts(40, 10, 5, 0, 2), "pl.bram": counts(40, 0, 0, 3) }, bits: { "00": counts(3, 1), "02": counts(3), 10: counts(2, 0, 0, 1) }, shots: [shot(9, "unnoticed"), shot(17, "hang"), shot(20, "recovered")] } };
