@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(the_end_of_a_daemon_is_that_of_the_run) {
   ends(3, "endless_daemon",
        {"the application's process has ended, and a copy of it that fork() made runs on",
         "until_ended", "endless_daemon ("},
-       {"--set", "ps.cpu.host_timeout=300 ms"});
+       {"--set", "ps.cpu.host_timeout=2 s"});
   BOOST_TEST(none_is_left("processes"));
 }
 
