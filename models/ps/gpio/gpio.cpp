@@ -181,7 +181,7 @@ void Gpio::on_change(vp::SignalBase&, std::uint32_t) {
 }
 
 void Gpio::update_pins() {
-  const auto both = [this](unsigned low, auto word_of) {
+  const auto both = [](unsigned low, auto word_of) {
     return static_cast<std::uint64_t>(word_of(low)) | static_cast<std::uint64_t>(word_of(low + 1))
                                                           << 32;
   };
