@@ -23,7 +23,7 @@ struct OwnDriver {
   bool has(const std::string& source) const;
 };
 
-/// Whether this is a file of a driver: drivers/<name>/src/… or …/data/….
+/// Whether this is a file of a driver: drivers/NAME/src/… or …/data/….
 bool is_of_driver(const std::string& path);
 
 /// The drivers among files for which that holds. What runs on Linux alone is left out.
