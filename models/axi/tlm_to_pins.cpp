@@ -61,15 +61,15 @@ void TlmToPins::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time&
   const std::uint64_t now = scheduler.synchronised_ps();
 
   Request request{payload};
-  for (Burst& burst : split(request)) {
+  for (const Burst& burst : split(request)) {
     ++request.unanswered;
     if (payload.is_read()) {
       ar_.push_back(burst);
-      r_.push_back(std::move(burst));
+      r_.push_back(burst);
     } else {
       aw_.push_back(burst);
       w_.push_back(burst);
-      b_.push_back(std::move(burst));
+      b_.push_back(burst);
     }
   }
   ++open_;

@@ -141,6 +141,7 @@ std::vector<handoff::OwnDriver> drivers_of(const handoff::Handoff& handoff,
 
 std::vector<std::string> texts_of(const std::vector<std::string>& files) {
   std::vector<std::string> texts;
+  texts.reserve(files.size());
   for (const std::string& file : files) texts.push_back(vp::read_text(file, "program"));
   return texts;
 }

@@ -163,7 +163,9 @@ void FixedMapping::unmap(const Piece& piece) {
     munmap(at, bytes);
     return;
   }
-  mmap(at, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0);
+  const int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED;
+  // Without memory of their own the variables stay where they are.
+  if (mmap(at, bytes, PROT_READ | PROT_WRITE, flags, -1, 0) == MAP_FAILED) return;
   copy_variables(at, behind(piece.first), bytes);
 }
 

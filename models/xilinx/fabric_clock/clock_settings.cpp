@@ -47,6 +47,7 @@ std::vector<ManagerSetting> settings_near(double input_hz, double wish_hz,
     }
   }
   std::vector<ManagerSetting> list;
+  list.reserve(found.size());
   for (const auto& [frequency, setting] : found) list.push_back(setting);
   std::stable_sort(list.begin(), list.end(), [&](const ManagerSetting& a, const ManagerSetting& b) {
     return std::abs(a.hz - wish_hz) < std::abs(b.hz - wish_hz);

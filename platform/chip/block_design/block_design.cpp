@@ -248,6 +248,7 @@ void BlockDesign::join_stream(const End& master, const End& slave) {
     if (found != known.end()) return found->second;
     if (any) return any(end.port);
     std::vector<std::string> names;
+    names.reserve(known.size());
     for (const auto& [name, stream] : known) names.push_back(name);
     refuse(end, "is no stream of " + design_.part(end.part)->vlnv, names);
   };

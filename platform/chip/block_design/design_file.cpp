@@ -131,7 +131,7 @@ class DesignReader : vp::YamlReader {
   }
 
   std::string vlnv(const YAML::Node& node) const {
-    const std::string text = scalar(node, "ip");
+    std::string text = scalar(node, "ip");
     if (vp::split(text, ':').size() != 4) {
       fail(node, "'" + vp::excerpt(text) +
                      "': write vendor:library:name:version, as xilinx.com:ip:axi_dma:7.1");

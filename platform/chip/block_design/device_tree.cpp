@@ -129,7 +129,7 @@ std::string device_tree(const Handoff& handoff) {
             ";\n";
     std::snprintf(place, sizeof place, "0x%08llx 0x%llx",
                   static_cast<unsigned long long>(segment.base),
-                  static_cast<unsigned long long>(segment.last - segment.base + 1));
+                  static_cast<unsigned long long>(segment.last - segment.base) + 1);
     text += std::string("\t\t\treg = <") + place + ">;\n" + interrupts_of(*module, interrupts) +
             clocks_of(*module, nets) + properties(*module) + "\t\t};\n";
   }

@@ -84,6 +84,7 @@ Handoff read_archive(const Archive& archive, const std::string& file, const std:
                                 "family, or of an IP alone"));
   }
   std::vector<std::string> choices;
+  choices.reserve(names.size());
   for (const std::string& name : names) choices.push_back(stem(name));
   if (!design.empty()) {
     const auto found = std::find(choices.begin(), choices.end(), design);

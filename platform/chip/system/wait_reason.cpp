@@ -21,12 +21,12 @@ namespace platform {
 
 namespace {
 
-using Device = facts::HardwareMap::Device;
+using MappedDevice = facts::HardwareMap::Device;
 
 /// Registers of one device, by name.
 class Look {
  public:
-  Look(Zynq& zynq, const Device& device) : zynq_(zynq), device_(device) {}
+  Look(Zynq& zynq, const MappedDevice& device) : zynq_(zynq), device_(device) {}
 
   bool has(const std::string& name) const { return find(name) != nullptr; }
   std::uint32_t operator[](const std::string& name) const {
@@ -42,7 +42,7 @@ class Look {
     return at == device_.registers.end() ? nullptr : &*at;
   }
   Zynq& zynq_;
-  const Device& device_;
+  const MappedDevice& device_;
 };
 
 /// What of the interrupt controller stops interrupt `id`, which asks for the CPU.
@@ -93,7 +93,7 @@ std::string stopped_at_controller(const ps::Gic& gic, std::uint32_t id, bool irq
 }
 
 /// An event of a device that its own enable bit keeps from its interrupt line.
-std::string kept_at_device(Zynq& zynq, const Device& device) {
+std::string kept_at_device(Zynq& zynq, const MappedDevice& device) {
   const Look look(zynq, device);
   const auto dma = [&](const std::string& channel, const char* direction) -> std::string {
     const std::uint32_t kept =
@@ -180,7 +180,7 @@ std::string state_of_channel(const Look& look, const std::string& device,
 }
 
 /// A channel that the program polls, or, if it polls none, one that is to raise an interrupt.
-bool is_of_interest(Zynq& zynq, const Device& device, bool sends,
+bool is_of_interest(Zynq& zynq, const MappedDevice& device, bool sends,
                     std::optional<std::uint32_t> polled) {
   const Look look(zynq, device);
   const std::string control = sends ? "MM2S_DMACR" : "S2MM_DMACR";
@@ -193,7 +193,7 @@ bool is_of_interest(Zynq& zynq, const Device& device, bool sends,
   return here && sends == (*polled - device.base < axi_dma::S2MM_DMACR);
 }
 
-std::string state_of_dma(Zynq& zynq, const Device& device, bool sends) {
+std::string state_of_dma(Zynq& zynq, const MappedDevice& device, bool sends) {
   const Look look(zynq, device);
   bool waits = false;
   const char* stream = "";
@@ -219,7 +219,7 @@ std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Cpu::Wait& 
     if (!reason.empty() && std::find(reasons.begin(), reasons.end(), reason) == reasons.end())
       reasons.push_back(reason);
   };
-  for (const Device& device : map.devices) {
+  for (const MappedDevice& device : map.devices) {
     for (const bool sends : {true, false}) {
       if (is_of_interest(zynq, device, sends, wait.polled)) add(state_of_dma(zynq, device, sends));
     }
@@ -234,7 +234,7 @@ std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Cpu::Wait& 
                     high ? "has been high since" : "rose at",
                     vp::format_time(gic.risen_ps(interrupt.id)), why));
   }
-  for (const Device& device : map.devices) add(kept_at_device(zynq, device));
+  for (const MappedDevice& device : map.devices) add(kept_at_device(zynq, device));
   std::string text;
   for (const std::string& reason : reasons) text += "; " + reason;
   return text;

@@ -111,6 +111,7 @@ const Contract& contract_of(const std::string& ip) {
   const auto found = all.find(ip);
   if (found != all.end()) return found->second;
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const auto& [name, contract] : all) names.push_back(name);
   throw vp::InputError("nothing is known that could be proved of an IP '" + ip + "': name " +
                        vp::one_of(names) + "; a proof has one clock");

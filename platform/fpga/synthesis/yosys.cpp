@@ -184,7 +184,7 @@ void YosysFolder::copy_without_format_widths() {
     std::istringstream lines(vp::read_text(sources_[i], "source"));
     std::string text;
     for (std::string line; std::getline(lines, line); text += line + "\n") {
-      if (line.find("$") != line.npos) line = std::regex_replace(line, width, "$1$2");
+      if (line.find('$') != line.npos) line = std::regex_replace(line, width, "$1$2");
     }
     sources_[i] = scratch_ / (std::to_string(i) + "_" + sources_[i].filename().string());
     vp::write_file(sources_[i].string(), text);

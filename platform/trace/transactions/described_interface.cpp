@@ -75,6 +75,7 @@ void check_roles(const TraceFile& file, const BusInterface& one, const std::stri
   };
   if (std::none_of(least.begin(), least.end(), complete)) {
     std::vector<std::string> choices;
+    choices.reserve(least.size());
     for (const auto& roles : least) choices.push_back(vp::join(roles, ", "));
     throw vp::InputError(where + "needs " + vp::join(choices, "; or "));
   }
