@@ -32,6 +32,7 @@ struct PosesOptions {
 template <class Named>
 std::vector<std::string> names_of(const std::vector<Named>& list) {
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const Named& each : list) names.emplace_back(each.name);
   return names;
 }
