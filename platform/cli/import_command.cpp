@@ -1,6 +1,4 @@
-#include <chip/block_design/driver_files.h>
 #include <chip/block_design/import_design.h>
-#include <chip/block_design/program_flow.h>
 #include <chip/block_design/shelf.h>
 #include <chip/handoff/handoff.h>
 #include <chip/handoff/rtl_sources.h>

@@ -239,7 +239,7 @@ class Reporter final : public Replay::Listener {
   void rows_until(std::uint64_t ps, bool before) {
     while (next_ < times_.size() && times_[next_] < ps && !stopped_) row(times_[next_++], before);
   }
-  /// An event has no value that stands: it is 1 at its time only.
+  /// An event keeps no value: it is 1 at its own time only.
   void note_events(std::uint64_t ps) {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       const bool is_event = file_.variable(replay_.variable(slots_[i])).is_event;

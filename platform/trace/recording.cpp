@@ -101,7 +101,7 @@ class Recorder final : private WindowReader {
     }
     if (begun()) keep(net, now().first);
   }
-  /// An event has no value that stands.
+  /// An event keeps no value.
   void end_pulses() {
     for (const std::uint32_t number : std::exchange(pulses_, {})) {
       Net& net = nets_[number];

@@ -160,7 +160,7 @@ void write(const fs::path& name, VcdIndex::Header header, const VcdIndexMaker& m
   file.commit();
 }
 
-/// Writes the index. Returns why there is none, empty if there is one.
+/// Writes the index. Returns the reason if that fails, otherwise empty.
 std::string make(const fs::path& file, const WaveOptions& options, const fs::path& name,
                  const VcdIndex::Header& key) {
   constexpr std::uint64_t bytes_a_change = 400, most_changes = 2'000'000;  // 2 %, 16 MB

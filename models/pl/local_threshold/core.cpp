@@ -37,11 +37,9 @@ void LocalThresholdCore::leave() {
   const std::uint32_t leaving = entered - lag();
   const std::uint32_t column = leaving % geometry_.width, row = leaving / geometry_.width;
   slide(column);
-  const auto reach = [this](std::uint32_t middle, std::uint32_t size) {
-    return std::min(middle + radius_, size - 1) - (std::max(middle, radius_) - radius_) + 1;
-  };
   dark_ = rule_.dark(stored(column, row), sum_,
-                     reach(column, geometry_.width) * reach(row, geometry_.height));
+                     window_reach(column, radius_, geometry_.width) *
+                         window_reach(row, radius_, geometry_.height));
 }
 
 // The window moves to the right, or to the beginning of the next row.

@@ -25,6 +25,11 @@ struct LocalRule {
   }
 };
 
+/// Pixels of a window of `radius` around `middle` that lie within `size`, along one axis.
+inline std::uint32_t window_reach(std::uint32_t middle, std::uint32_t radius, std::uint32_t size) {
+  return std::min(middle + radius, size - 1) - (std::max(middle, radius) - radius) + 1;
+}
+
 /// The rule as the hardware applies it, pixel by pixel: one goes into the line buffers, and the one
 /// in the middle of the window leaves.
 class LocalThresholdCore {

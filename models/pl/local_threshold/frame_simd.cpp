@@ -53,15 +53,6 @@ namespace pl {
 
 HWY_EXPORT(pack_locally_dark);
 
-namespace {
-
-/// Pixels of a window around `middle` that lie within `size`.
-std::uint32_t reach(std::uint32_t middle, std::uint32_t radius, std::uint32_t size) {
-  return std::min(middle + radius, size - 1) - (std::max(middle, radius) - radius) + 1;
-}
-
-}  // namespace
-
 void find_dark(const std::uint8_t* image, const Geometry& geometry, const LocalRule& rule,
                std::vector<std::uint32_t>& words) {
   const std::uint32_t width = geometry.width, height = geometry.height, radius = rule.radius;
@@ -78,8 +69,8 @@ void find_dark(const std::uint8_t* image, const Geometry& geometry, const LocalR
     if (y + radius < height) add_row(y + radius, 1);
     if (y > radius) add_row(y - radius - 1, ~0u);
     if (y <= radius || y + radius >= height) {
-      const std::uint32_t rows = reach(y, radius, height);
-      for (std::uint32_t x = 0; x < width; ++x) counts[x] = rows * reach(x, radius, width);
+      const std::uint32_t rows = window_reach(y, radius, height);
+      for (std::uint32_t x = 0; x < width; ++x) counts[x] = rows * window_reach(x, radius, width);
     }
     std::uint32_t sum = 0;
     for (std::uint32_t x = 0; x < width; ++x) sums[radius + 1 + x] = sum += columns[x];

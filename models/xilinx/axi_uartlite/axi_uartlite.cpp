@@ -31,6 +31,8 @@ AxiUartlite::AxiUartlite(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
                 "build option Data Bits (PG142)"),
       use_parity("use_parity", build.use_parity, vp::Source::published,
                  "build option Parity (PG142)"),
+      odd_parity("odd_parity", build.odd_parity, vp::Source::published,
+                 "build option Parity (PG142): odd, else even"),
       s_axi("s_axi", axi_uartlite::registers, uartlite_options(), &s_axi_aclk.scheduler()) {
   wire();
 }
@@ -99,6 +101,12 @@ std::uint64_t AxiUartlite::character_clocks() const {
   const std::uint64_t sixteenth =
       std::max<std::uint64_t>(1, (clock().frequency_hz() + 8ull * baudrate) / (16ull * baudrate));
   return 16 * sixteenth * (2 + data_bits + (use_parity ? 1 : 0));
+}
+
+bool AxiUartlite::understands(const AxiUartlite& other) const {
+  return baudrate.get() == other.baudrate.get() && data_bits.get() == other.data_bits.get() &&
+         use_parity.get() == other.use_parity.get() &&
+         (!use_parity.get() || odd_parity.get() == other.odd_parity.get());
 }
 
 void AxiUartlite::receive(std::string_view bytes) {

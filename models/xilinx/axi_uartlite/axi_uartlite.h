@@ -19,7 +19,7 @@ namespace xilinx {
 struct AxiUartliteBuild {
   std::uint32_t baudrate = 9600;
   std::uint32_t data_bits = 8;  ///< 5 to 8
-  bool use_parity = false;
+  bool use_parity = false, odd_parity = false;
 };
 
 /// AXI UART Lite v2.0 (PG142), at the level of whole characters. Its interrupt is a pulse of one
@@ -34,13 +34,16 @@ class AxiUartlite : public vp::Clocked, public vp::Ip, public board::SerialHost 
   vp::Parameter<std::uint32_t> baudrate;
   vp::Parameter<std::uint32_t> data_bits;
   vp::Parameter<bool> use_parity;
+  vp::Parameter<bool> odd_parity;
 
   vp::In<bool> s_axi_aresetn{"s_axi_aresetn"};  ///< may be left open
   vp::RegisterBank s_axi;
   vp::Signal<bool> interrupt{"interrupt"};
 
   void receive(std::string_view bytes) override;
-  /// Wires its tx to the rx of another one, of the same rate and format.
+  /// Characters of the one are such to the other: same rate and format.
+  bool understands(const AxiUartlite& other) const;
+  /// Wires its tx to the rx of another one that it understands.
   void connect(AxiUartlite& receiver) { receiver_ = &receiver; }
 
  private:

@@ -207,10 +207,7 @@ void BlockDesign::join_serial_lines() {
     const PlacedPart* driver = receiver ? serial_driver(design_, part) : nullptr;
     if (!driver) continue;
     xilinx::AxiUartlite& sender = *placed(driver->name).serial;
-    const bool is_same = sender.baudrate.get() == receiver->baudrate.get() &&
-                         sender.data_bits.get() == receiver->data_bits.get() &&
-                         sender.use_parity.get() == receiver->use_parity.get();
-    if (!is_same) {
+    if (!sender.understands(*receiver)) {
       refuse(part.pins.at("rx"),
              "and " + part.name + ".rx have other baud rates or formats: give both the same");
     }

@@ -1,4 +1,4 @@
-#include <chip/block_design/driver_files.h>
+#include <chip/block_design/import_design.h>
 
 #include <vp/text.h>
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <chip/block_design/shelf.h>
 #include <chip/handoff/handoff.h>
+#include <chip/handoff/own_driver.h>
 #include <chip/handoff/rtl_sources.h>
 
 namespace platform::block_design {
@@ -40,6 +42,23 @@ std::string import_report(const handoff::Handoff& handoff, const ImportedDesign&
 
 /// The devices of the PL that the PS sees, as a device tree for Linux.
 std::string device_tree(const handoff::Handoff& handoff);
+
+/// What the vendor's tools make of the drivers of a design's own IP.
+struct DriverFiles {
+  std::vector<std::pair<std::string, std::string>> files;  ///< "filter_v1_0/filter.h", text
+  std::string names;  ///< lines for xparameters.h: numbers and addresses of the instances
+};
+
+/// The drivers whose IP the design has, one of each name, with the tables of their instances.
+/// Names that `xparameters` has already are not written again.
+DriverFiles driver_files(const handoff::Handoff& handoff,
+                         const std::vector<handoff::OwnDriver>& drivers,
+                         const std::string& xparameters);
+
+/// Whether programs of these texts are written for the flow with a system device tree, Vitis from
+/// 2023.2 on, where `SDT` is defined: they use names that `xparameters` has behind `SDT` alone, and
+/// none that the other flow has alone.
+bool is_for_device_tree(const std::vector<std::string>& programs, const std::string& xparameters);
 
 /// CMakeLists.txt of an imported design: its RTL, and its PS program of `sources`, as CMake finds
 /// them from the folder, with what `drivers/` has. None: of what lies in its folder `software`.

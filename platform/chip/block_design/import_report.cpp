@@ -116,8 +116,7 @@ std::string import_report(const Handoff& handoff, const ImportedDesign& design,
          "markervp run --design design.yaml\n```\n\n"
          "If the program wants a header of the vendor's that is missing, name its drivers: "
          "`-DVENDOR_BSP=<BSP>` for the first `cmake`, the\n`libsrc` of a board support package or "
-         "a "
-         "checkout of the vendor's `embeddedsw`.\n";
+         "a checkout of the vendor's `embeddedsw`.\n";
 }
 
 namespace {
@@ -141,8 +140,7 @@ std::string rtl_targets(const ImportedDesign& design) {
   return text;
 }
 
-/// The program, with the drivers of the design's own IP. HLS writes
-/// one driver for Linux and for bare metal: programs of the vendor's tools run on bare metal.
+/// The program, with the drivers of the design's own IP.
 std::string program_target(const std::string& name, bool is_sdt) {
   return "file(GLOB drivers CONFIGURE_DEPENDS drivers/*/*.c)\n"
          "file(GLOB driver_folders LIST_DIRECTORIES true CONFIGURE_DEPENDS drivers/*)\n"

@@ -115,6 +115,7 @@ Placed place_uartlite(const Placement& at) {
   build.baudrate = word(at, "C_BAUDRATE");
   build.data_bits = word(at, "C_DATA_BITS");
   build.use_parity = at.flag("C_USE_PARITY");
+  build.odd_parity = at.flag("C_ODD_PARITY");
   auto uart = std::make_unique<xilinx::AxiUartlite>(name_of(at), at.clock({"s_axi_aclk"}), build);
   Placed placed;
   placed.slaves = {{"S_AXI", registers(uart->s_axi)}};
@@ -229,9 +230,8 @@ Placed place_xadc(const Placement& at) {
 const PlacedPart* serial_driver(const DesignFile& design, const PlacedPart& part) {
   const auto rx = part.pins.find("rx");
   const PlacedPart* driver = rx == part.pins.end() ? nullptr : design.part(rx->second.part);
-  const bool is_line = driver && !driver->is_stub() && driver->rule() &&
-                       driver->rule()->ip == "axi_uartlite" && rx->second.port == "tx";
-  return is_line ? driver : nullptr;
+  const IpRule* rule = driver ? driver->rule() : nullptr;
+  return rule && rule->ip == "axi_uartlite" && rx->second.port == "tx" ? driver : nullptr;
 }
 
 Placer peripheral_placer(const std::string& ip) {

@@ -1,4 +1,4 @@
-#include <chip/block_design/program_flow.h>
+#include <chip/block_design/import_design.h>
 
 #include <vp/text.h>
 

@@ -163,7 +163,8 @@ std::vector<OwnDriver> RtlFinder::drivers(const Handoff& handoff) const {
       if (!seen.insert(component).second || !fs::is_directory(folder / "drivers", ignored))
         continue;
       std::vector<PathAndText> files;
-      for (const auto& entry : fs::recursive_directory_iterator(folder / "drivers")) {
+      for (const auto& entry : fs::recursive_directory_iterator(
+               folder / "drivers", fs::directory_options::skip_permission_denied, ignored)) {
         const std::string name = entry.path().lexically_relative(folder).generic_string();
         if (entry.is_regular_file(ignored) && is_of_driver(name))
           files.emplace_back(name, vp::read_text(entry.path().string(), "driver", largest_source));

@@ -19,8 +19,8 @@ inline unsigned devices(std::uint32_t instances) {
   return instances < most_devices ? instances : most_devices;
 }
 
-/// The number that `text` is, which is what a macro stands for: `otherwise` where it is a name, as
-/// that of a macro that is not defined. Suffixes do not count.
+/// The number in `text`, the expansion of a macro. An undefined macro expands to its own name: that
+/// gives `otherwise`. Suffixes do not count.
 constexpr std::uint32_t number_or(const char* text, std::uint32_t otherwise) {
   if (*text < '0' || *text > '9') return otherwise;
   const bool hexadecimal = text[0] == '0' && (text[1] == 'x' || text[1] == 'X');

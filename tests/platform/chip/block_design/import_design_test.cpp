@@ -1,9 +1,7 @@
 // A hand-off as a design: what becomes of each part, and what is said of it.
 #include <chip/block_design/design_file.h>
 #include <chip/block_design/diagram.h>
-#include <chip/block_design/driver_files.h>
 #include <chip/block_design/import_design.h>
-#include <chip/block_design/program_flow.h>
 #include <boost/test/unit_test.hpp>
 
 #include <string>

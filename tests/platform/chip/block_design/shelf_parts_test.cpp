@@ -162,14 +162,17 @@ BOOST_AUTO_TEST_CASE(software_changes_the_clock_of_other_parts) {
 BOOST_AUTO_TEST_CASE(a_serial_line_leads_from_one_uart_to_another) {
   using namespace axi_uartlite;
   const std::string on = clocked;
-  const auto second = [&](const std::string& baud) {
-    return part("second", "axi_uartlite:2.0", "C_BAUDRATE: " + baud + ", C_USE_PARITY: 1",
+  const auto second = [&](const std::string& baud, const std::string& odd = "0") {
+    return part("second", "axi_uartlite:2.0",
+                "C_BAUDRATE: " + baud + ", C_USE_PARITY: 1, C_ODD_PARITY: " + odd,
                 on + ", rx: axi_uartlite_0.tx", "S_AXI: bus.M11_AXI") +
            "addresses:\n  ps.M_AXI_GP0:\n    second.S_AXI: [0x42C10000, 64 KiB]\n";
   };
   const std::string start = "addresses:\n  ps.M_AXI_GP0:\n";
-  const std::string refused = refusal(start, second("9600"));
-  BOOST_TEST(has(refused, "other baud rates or formats"), refused);
+  for (const std::string& other : {second("9600"), second("115200", "1")}) {
+    const std::string refused = refusal(start, other);
+    BOOST_TEST(has(refused, "other baud rates or formats"), refused);
+  }
   BuiltDesign chip(replaced(shelf_design(), start, second("115200")));
   auto& first = chip.part<xilinx::AxiUartlite>("axi_uartlite_0");
   auto& other = chip.part<xilinx::AxiUartlite>("second");

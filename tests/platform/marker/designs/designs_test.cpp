@@ -66,8 +66,9 @@ BOOST_AUTO_TEST_CASE(both_may_be_given) {
 }
 
 BOOST_AUTO_TEST_CASE(a_name_that_no_design_has) {
-  for (const auto& [name, words] : {std::pair{"thesys", "did you mean 'thesis'?"},
-                                    std::pair{"nothing", "thesis, ps-only, improved, hd, eco or careful"}}) {
+  for (const auto& [name, words] :
+       {std::pair{"thesys", "did you mean 'thesis'?"},
+        std::pair{"nothing", "thesis, ps-only, improved, hd, eco or careful"}}) {
     BOOST_CHECK_EXCEPTION(built(name, std::nullopt), vp::InputError, [&](const auto& error) {
       return std::string(error.what()).find(words) != std::string::npos;
     });
