@@ -86,6 +86,17 @@ BOOST_AUTO_TEST_CASE(destructors_that_misbehave) {
   }
 }
 
+/// What is refused stays loaded until the end.
+BOOST_AUTO_TEST_CASE(destructors_of_an_object_of_another_kind) {
+  ::setenv("EARLY", "late exit", 1);
+  for (const std::string option : {"--design=", "--set=pl.fidelity.corner_detection="}) {
+    const kit::Outcome outcome = start({"config", option + MARKERVP_EARLY});
+    BOOST_TEST(outcome.exit_code == 3, option);
+    BOOST_TEST(outcome.err.find("early.so' is not ") != std::string::npos, outcome.err);
+    BOOST_TEST(outcome.err.find("in the destructor of a static object") != std::string::npos);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_signal_ends_loading_and_unloading) {
   for (const std::string way : {"spin", "sleep"}) {
     const kit::Outcome outcome = interrupted(way);

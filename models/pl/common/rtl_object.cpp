@@ -19,9 +19,9 @@ constexpr const char* rebuild = "build it with markervp_add_rtl() of this marker
 const RtlDescriptor& open_rtl(const std::string& file) {
   const std::string whose = "RTL '" + file + "' ";
   void* library = vp::load_object(vp::rtl_object, file);
+  vp::keep_object(vp::rtl_object, file, library);
   void* symbol = ::dlsym(library, RTL_SYMBOL);
   if (!symbol) throw vp::InputError(whose + "is not RTL: it has no '" RTL_SYMBOL "'; " + rebuild);
-  vp::keep_object(vp::rtl_object, file, library);
   const RtlDescriptor* rtl = nullptr;
   std::uint32_t interface = 0;
   const std::string stopped = vp::stopped_by([&] {

@@ -42,11 +42,11 @@ void check(const std::string& file, const DesignDescriptor& descriptor) {
 
 DesignInfo open(const std::string& file) {
   void* handle = vp::load_object(vp::design_object, file);
+  vp::keep_object(vp::design_object, file, handle);
   const auto* descriptor = static_cast<const DesignDescriptor*>(::dlsym(handle, symbol));
   if (!descriptor)
     refuse(file,
            std::string("is not a design: it has no '") + symbol + "'; write MARKERVP_DESIGN(…)");
-  vp::keep_object(vp::design_object, file, handle);
   check(file, *descriptor);
   DesignInfo info;
   vp::call_objects([&] { info = descriptor->info(); });
