@@ -44,7 +44,7 @@ Object.assign(blocks.waiting.result.limit, { kind: "behind", stages: ["evaluatio
 blocks.waves = { waves: samples.waves() };
 blocks.manyWaves = { waves: samples.waves({ changes: 1e6 }) };
 blocks.traced = samples.run({ frames: 3 });
-blocks.traced.extras.waves = samples.waves();
+blocks.traced.extras.waves = samples.waves({ accesses: true });
 blocks.traced.extras.timeline.frames = [{ index: 0, start: 2, end: 8 }]; // µs
 let browser;
 
@@ -762,7 +762,7 @@ test("traced: the waves point at the frame, and the timeline at the waves", () =
   await page.waitForSelector(".wave-scroll[data-drawn]");
   assert.ok(await page.$("#waves select"), "frames can be chosen");
   await page.locator(".wave-sight canvas").click({ position: { x: 300, y: 100 } });
-  assert.match(await page.textContent("#waves > .note:last-child"), /^in .* 1 · software: step_\d/);
+  assert.match(await page.textContent("#waves > .note:last-child"), /^in .* 1 · software: step_\d · last access: read axi_gpio_0\.GPIO_DATA, from which line: markervp history \. --register axi_gpio_0\.GPIO_DATA --before \d+ps$/);
   await page.click("#waves button.plain");
   assert.equal(await page.$eval("#frame", (section) => section.getBoundingClientRect().top < innerHeight), true);
 }));

@@ -268,8 +268,8 @@ function packed(numbers) {
   return Buffer.from(bytes).toString("base64");
 }
 
-/** A trace: a clock, a state with names, a number, a curve, a lane of reads, what the software runs. `changes`: of the clock. */
-function waves({ changes = 2000 } = {}) {
+/** A trace: a clock, a state with names, a number, a curve, a lane of reads, what the software runs, and with `accesses` what it reads. `changes`: of the clock. */
+function waves({ changes = 2000, accesses = false } = {}) {
   const half = 5000, to = changes * half;
   const list = (count, of) => Array.from({ length: count }, (_, i) => of(i));
   const some = Math.max(4, Math.floor(changes / 20));
@@ -281,6 +281,7 @@ function waves({ changes = 2000 } = {}) {
       words("top.state", (i) => ["idle", "run", "</script><img src=x onerror='window.hacked=1'>", "x", "0x1F", "0xx", ""][i]),
       words("top.level", (i) => String(i * 1.5), "real"),
       words("ps.cpu.function_name", (i) => `step_${i}`),
+      ...(accesses ? [words("ps.cpu.m_axi.access", (i) => ["read axi_gpio_0.GPIO_DATA", ""][i % 2])] : []),
       { name: "top.copy", form: "bit", bits: 1, sameAs: 0 },
     ],
     lanes: [{ name: "top.m_axi.read_1", count: some, spans: packed(list(some, (i) => [i && 20 * half, 8 * half, i % 7 * 2 + (i % 5 === 0 ? 1 : 0)]).flat()), words: list(7, (i) => `read 0x${i}000 4 beats OKAY`) }],

@@ -18,6 +18,12 @@ function leftOut(data) {
 
 const help = () => h("p", { class: "note" }, "Click sets the cursor, Shift and a click a second one; drag or Shift and the wheel move, Ctrl and the wheel zoom. A row that you choose has its changes behind ‹ and ›.");
 
+/** Of an access of the processor, "read axi_gpio_1.GPIO_DATA", the command that names the source lines of the last ones up to then. */
+function sourceLine(access, ps) {
+  const register = access.split(" ")[1];
+  return [` · last access: ${access}, from which line: `, h("code", {}, `markervp history . --register ${shellWord(register)} --before ${Math.ceil(ps) + 1}ps`)];
+}
+
 /** The page of a trace alone. */
 export function wavesPage(data) {
   const { element, setCursor } = waveView(data);
@@ -45,7 +51,7 @@ export function waves(run) {
         run.moment.pointAt({ ps, frame: frame.index }, section);
         document.getElementById("frame")?.scrollIntoView();
       } }, `in ${frame.name}`) : "",
-      software && h("span", {}, " · software: ", run.extras.profile ? h("a", { href: "#profile" }, software) : software), access ? ` · last access: ${access}` : "");
+      software && h("span", {}, " · software: ", run.extras.profile ? h("a", { href: "#profile" }, software) : software), ...(access ? sourceLine(access, ps) : []));
   };
   const viewer = waveView(data, { frames: spans, moved });
   run.moment.listen((moment, from) => { if (from !== section && moment.ps !== undefined) viewer.setCursor(moment.ps); });
