@@ -5,9 +5,9 @@ set(markervp_vendor_folder "${CMAKE_CURRENT_LIST_DIR}")
 
 # The folders of the vendor's drivers that VENDOR_BSP looks for: those whose devices are modelled are built, of the others a
 # program finds the headers.
-set(markervp_vendor_built axicdma axidma devcfg gpio gpiops iic iicps intc llfifo qspips scugic scutimer scuwdt spi spips sysmon
+set(markervp_vendor_built axicdma axidma axivdma devcfg gpio gpiops iic iicps intc llfifo qspips scugic scutimer scuwdt spi spips sysmon
   tmrctr ttcps uartlite uartps wdtps xadcps)
-set(markervp_vendor_headers axivdma bram canps clk_wiz dmaps emacps sdps usbps vtc)
+set(markervp_vendor_headers bram canps clk_wiz dmaps emacps sdps usbps vtc)
 
 # The folder with the sources of DRIVER below FOLDER, in SOURCE; empty if there is none.
 function(_markervp_find_vendor_driver NAME FOLDER DRIVER SOURCE)

@@ -456,6 +456,57 @@ XAxiCdma_Config XAxiCdma_ConfigTable[] = {
 };
 #endif
 
+#ifdef MARKERVP_VENDOR_AXIVDMA
+#include <xaxivdma.h>
+#ifdef SDT
+#define MARKERVP_ROW(n)                                                            \
+  {                                                                                \
+    .Name = NAME(XAXIVDMA, n), .BaseAddress = XPAR_XAXIVDMA_##n##_BASEADDR,        \
+    .MaxFrameStoreNum = XPAR_XAXIVDMA_##n##_NUM_FSTORES,                           \
+    .HasMm2S = XPAR_XAXIVDMA_##n##_INCLUDE_MM2S,                                   \
+    .HasMm2SDRE = XPAR_XAXIVDMA_##n##_INCLUDE_MM2S_DRE,                            \
+    .Mm2SWordLen = XPAR_XAXIVDMA_##n##_MM2S_DATA_WIDTH,                            \
+    .HasS2Mm = XPAR_XAXIVDMA_##n##_INCLUDE_S2MM,                                   \
+    .HasS2MmDRE = XPAR_XAXIVDMA_##n##_INCLUDE_S2MM_DRE,                            \
+    .S2MmWordLen = XPAR_XAXIVDMA_##n##_S2MM_DATA_WIDTH, .EnableVIDParamRead = 1,   \
+    .UseFsync = XPAR_XAXIVDMA_##n##_FLUSH_FSYNC, .FlushonFsync = 1,                \
+    .Mm2SBufDepth = XPAR_XAXIVDMA_##n##_MM2S_LINEBUFFER_DEPTH,                     \
+    .S2MmBufDepth = XPAR_XAXIVDMA_##n##_S2MM_LINEBUFFER_DEPTH,                     \
+    .Mm2SGenLock = XPAR_XAXIVDMA_##n##_MM2S_GENLOCK_MODE,                          \
+    .S2MmGenLock = XPAR_XAXIVDMA_##n##_S2MM_GENLOCK_MODE,                          \
+    .InternalGenLock = XPAR_XAXIVDMA_##n##_INCLUDE_INTERNAL_GENLOCK, .S2MmSOF = 1, \
+    .Mm2SStreamWidth = XPAR_XAXIVDMA_##n##_MM2S_TDATA_WIDTH,                       \
+    .S2MmStreamWidth = XPAR_XAXIVDMA_##n##_S2MM_TDATA_WIDTH, .Mm2SDlyCntrEn = 1,   \
+    .Mm2SFrmCntrEn = 1, .S2MmDlyCntrEn = 1, .S2MmFrmCntrEn = 1, .AddrWidth = 32,   \
+    .IntrId = {XPAR_XAXIVDMA_##n##_INTERRUPTS, MARKERVP_SECOND_XAXIVDMA_##n},      \
+    .IntrParent = DISTRIBUTOR,                                                     \
+  }
+#else
+#define MARKERVP_ROW(n)                                                                            \
+  {                                                                                                \
+    .DeviceId = XPAR_AXIVDMA_##n##_DEVICE_ID, .BaseAddress = XPAR_AXIVDMA_##n##_BASEADDR,          \
+    .MaxFrameStoreNum = XPAR_AXIVDMA_##n##_NUM_FSTORES,                                            \
+    .HasMm2S = XPAR_AXIVDMA_##n##_INCLUDE_MM2S, .HasMm2SDRE = XPAR_AXIVDMA_##n##_INCLUDE_MM2S_DRE, \
+    .Mm2SWordLen = XPAR_AXIVDMA_##n##_M_AXI_MM2S_DATA_WIDTH,                                       \
+    .HasS2Mm = XPAR_AXIVDMA_##n##_INCLUDE_S2MM, .HasS2MmDRE = XPAR_AXIVDMA_##n##_INCLUDE_S2MM_DRE, \
+    .S2MmWordLen = XPAR_AXIVDMA_##n##_M_AXI_S2MM_DATA_WIDTH, .EnableVIDParamRead = 1,              \
+    .UseFsync = XPAR_AXIVDMA_##n##_USE_FSYNC, .FlushonFsync = 1,                                   \
+    .Mm2SBufDepth = XPAR_AXIVDMA_##n##_MM2S_LINEBUFFER_DEPTH,                                      \
+    .S2MmBufDepth = XPAR_AXIVDMA_##n##_S2MM_LINEBUFFER_DEPTH,                                      \
+    .Mm2SGenLock = XPAR_AXIVDMA_##n##_MM2S_GENLOCK_MODE,                                           \
+    .S2MmGenLock = XPAR_AXIVDMA_##n##_S2MM_GENLOCK_MODE,                                           \
+    .InternalGenLock = XPAR_AXIVDMA_##n##_INCLUDE_INTERNAL_GENLOCK, .S2MmSOF = 1,                  \
+    .Mm2SStreamWidth = XPAR_AXIVDMA_##n##_M_AXIS_MM2S_TDATA_WIDTH,                                 \
+    .S2MmStreamWidth = XPAR_AXIVDMA_##n##_S_AXIS_S2MM_TDATA_WIDTH, .Mm2SDlyCntrEn = 1,             \
+    .Mm2SFrmCntrEn = 1, .S2MmDlyCntrEn = 1, .S2MmFrmCntrEn = 1, .AddrWidth = 32,                   \
+  }
+#endif
+#define MARKERVP_COUNT XPAR_XAXIVDMA_NUM_INSTANCES
+XAxiVdma_Config XAxiVdma_ConfigTable[] = {
+#include "MarkervpVendorRows.h"
+};
+#endif
+
 #ifdef MARKERVP_VENDOR_SYSMON
 #include <xsysmon.h>
 #ifdef SDT

@@ -227,6 +227,10 @@ Placed place_stream_buffer(const Placement& at, const std::string& ip) {
     build.depth = 2 * widest_stream_bytes;
   } else {
     build.in_bytes = build.out_bytes = bytes("TDATA_NUM_BYTES");
+    build.strobe = at.flag("HAS_TSTRB") ? build.in_bytes : 0;
+    build.user = bytes("TUSER_WIDTH");
+    build.id = bytes("TID_WIDTH");
+    build.dest = bytes("TDEST_WIDTH");
     const bool is_fifo = ip == "axis_data_fifo";
     build.depth = is_fifo ? static_cast<std::uint32_t>(at.number("FIFO_DEPTH")) : 2;
     build.latency = is_fifo ? fifo_latency : slice_latency;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <xilinx/axi_quad_spi/axi_quad_spi.h>
 #include <xilinx/axi_timer/axi_timer.h>
 #include <xilinx/axi_uartlite/axi_uartlite.h>
+#include <xilinx/axi_vdma/axi_vdma.h>
 #include <xilinx/xadc_wiz/xadc_wiz.h>
 
 // The small IP of registers: each with the vendor's names of pins and buses.
@@ -189,6 +191,54 @@ Placed place_cdma(const Placement& at) {
   return placed;
 }
 
+xilinx::VdmaChannelBuild vdma_channel(const Placement& at, const std::string& channel,
+                                      const std::string& stream) {
+  constexpr std::uint32_t bits_per_byte = 8, least_buffer = 128;
+  xilinx::VdmaChannelBuild build;
+  build.include = at.flag("C_INCLUDE_" + channel);
+  build.genlock = static_cast<xilinx::GenlockMode>(at.number("C_" + channel + "_GENLOCK_MODE"));
+  build.frame_stores = word(at, "C_NUM_FSTORES");
+  build.memory_bytes = word(at, "C_M_AXI_" + channel + "_DATA_WIDTH") / bits_per_byte;
+  build.stream_bytes = word(at, stream + "_TDATA_WIDTH") / bits_per_byte;
+  build.burst_beats = word(at, "C_" + channel + "_MAX_BURST_LENGTH");
+  build.line_buffer = std::max(least_buffer, word(at, "C_" + channel + "_LINEBUFFER_DEPTH"));
+  build.dre = at.flag("C_INCLUDE_" + channel + "_DRE");
+  return build;
+}
+
+Placed place_vdma(const Placement& at) {
+  xilinx::AxiVdmaBuild build;
+  build.mm2s = vdma_channel(at, "MM2S", "C_M_AXIS_MM2S");
+  build.s2mm = vdma_channel(at, "S2MM", "C_S_AXIS_S2MM");
+  vp::Clock& registers_clock = at.clock({"s_axi_lite_aclk"});
+  vp::Clock& reads =
+      build.mm2s.include ? at.clock({"m_axi_mm2s_aclk", "m_axis_mm2s_aclk"}) : registers_clock;
+  vp::Clock& writes =
+      build.s2mm.include ? at.clock({"m_axi_s2mm_aclk", "s_axis_s2mm_aclk"}) : registers_clock;
+  auto vdma = std::make_unique<xilinx::AxiVdma>(name_of(at), registers_clock, reads, writes, build);
+  Placed placed;
+  placed.slaves = {{"S_AXI_LITE", registers(vdma->s_axi_lite)}};
+  placed.inputs = {{"axi_resetn", input(at, "axi_resetn", vdma->axi_resetn)}};
+  // Frame pointers are for genlock with another core, of which the model warns when it is asked
+  // for.
+  placed.unused_inputs = {"mm2s_frame_ptr_in", "s2mm_frame_ptr_in"};
+  placed.outputs = {{"mm2s_introut", &vdma->mm2s_introut}, {"s2mm_introut", &vdma->s2mm_introut}};
+  if (xilinx::VdmaReader* mm2s = vdma->mm2s()) {
+    placed.masters["M_AXI_MM2S"] = memory_master(mm2s->m_axi);
+    placed.stream_masters["M_AXIS_MM2S"] = {
+        [mm2s](vp::AxiStream& link, vp::Clock&) { mm2s->m_axis(link); }, &reads,
+        build.mm2s.stream_bytes};
+  }
+  if (xilinx::VdmaWriter* s2mm = vdma->s2mm()) {
+    placed.masters["M_AXI_S2MM"] = memory_master(s2mm->m_axi);
+    placed.stream_slaves["S_AXIS_S2MM"] = {
+        [s2mm](vp::AxiStream& link, vp::Clock&) { s2mm->s_axis(link); }, &writes,
+        build.s2mm.stream_bytes};
+  }
+  placed.object = std::move(vdma);
+  return placed;
+}
+
 /// What the converter's registers from 0x40 on hold after configuration (UG480): three of
 /// configuration, 0x48 to 0x4F the sequence, 0x50 to 0x5F the limits of alarms.
 std::map<unsigned, std::uint16_t> converter_registers(const Placement& at) {
@@ -236,10 +286,11 @@ const PlacedPart* serial_driver(const DesignFile& design, const PlacedPart& part
 
 Placer peripheral_placer(const std::string& ip) {
   static const std::map<std::string, Placer> placers{
-      {"axi_cdma", place_cdma},         {"axi_fifo_mm_s", place_stream_fifo},
-      {"axi_iic", place_iic},           {"axi_intc", place_intc},
-      {"axi_quad_spi", place_quad_spi}, {"axi_timer", place_timer},
-      {"axi_uartlite", place_uartlite}, {"xadc_wiz", place_xadc}};
+      {"axi_cdma", place_cdma},   {"axi_fifo_mm_s", place_stream_fifo},
+      {"axi_vdma", place_vdma},   {"axi_iic", place_iic},
+      {"axi_intc", place_intc},   {"axi_quad_spi", place_quad_spi},
+      {"axi_timer", place_timer}, {"axi_uartlite", place_uartlite},
+      {"xadc_wiz", place_xadc}};
   const auto found = placers.find(ip);
   return found == placers.end() ? nullptr : found->second;
 }

@@ -182,6 +182,33 @@ IpRule central_dma() {
            {"C_M_AXI_MAX_BURST_LEN", "16", {"2", "4", "8", "16", "32", "64", "128", "256"}}}};
 }
 
+IpRule video_dma() {
+  std::vector<ParameterRule> list{{"C_NUM_FSTORES", "3", {}, 1, 16},
+                                  only("C_INCLUDE_SG", "0"),
+                                  only("C_ENABLE_VIDPRMTR_READS", "1"),
+                                  only("C_FLUSH_ON_FSYNC", "1"),
+                                  only("C_USE_MM2S_FSYNC", "0"),
+                                  only("C_USE_S2MM_FSYNC", "2"),
+                                  only("C_ENABLE_VERT_FLIP", "0"),
+                                  {"C_USE_FSYNC", "1", {}, 0, 3},
+                                  {"C_INCLUDE_INTERNAL_GENLOCK", "1", {"0", "1"}}};
+  for (const std::string channel : {"MM2S", "S2MM"}) {
+    const std::string stream = channel == "MM2S" ? "C_M_AXIS_MM2S" : "C_S_AXIS_S2MM";
+    list.push_back({"C_INCLUDE_" + channel, "1", {"0", "1"}});
+    list.push_back({"C_INCLUDE_" + channel + "_DRE", "0", {"0", "1"}});
+    list.push_back({"C_" + channel + "_GENLOCK_MODE", channel == "MM2S" ? "1" : "0", {}, 0, 3});
+    list.push_back(only("C_" + channel + "_SOF_ENABLE", "1"));
+    list.push_back(
+        {"C_M_AXI_" + channel + "_DATA_WIDTH", "64", {"32", "64", "128", "256", "512", "1024"}});
+    list.push_back({stream + "_TDATA_WIDTH", "32", {}, 8, 1024});
+    list.push_back({"C_" + channel + "_MAX_BURST_LENGTH", "8", {}, 2, 256});
+    list.push_back({"C_" + channel + "_LINEBUFFER_DEPTH", "512", {}, 0, 65536});
+  }
+  return {"axi_vdma", Kind::model,
+          "AXI VDMA, direct registers: MM2S free running, S2MM by TUSER(0) (PG020)",
+          std::move(list)};
+}
+
 /// INIT_40 … INIT_5F of the converter, by the vendor's names of them.
 std::vector<ParameterRule> converter_parameters() {
   std::vector<ParameterRule> list{only("INTERFACE_SELECTION", "Enable_AXI"),
@@ -203,6 +230,15 @@ std::vector<ParameterRule> converter_parameters() {
                                   {"C_SEQUENCE_R7", "0"}};
   for (unsigned i = 0; i < 16; ++i)
     list.push_back({"C_ALARM_LIMIT_R" + std::to_string(i), "0", {}, 0, 0xFFFF});
+  return list;
+}
+
+/// Of a part that passes beats as they are: how wide they are, and what goes beside the bytes.
+std::vector<ParameterRule> stream_parameters(std::vector<ParameterRule> list) {
+  list.push_back({"TDATA_NUM_BYTES", "4", {}, 1, 128});
+  list.push_back({"HAS_TSTRB", "0", {"0", "1"}});
+  for (const char* name : {"TUSER_WIDTH", "TID_WIDTH", "TDEST_WIDTH"})
+    list.push_back({name, "0", {}, 0, 1024});
   return list;
 }
 
@@ -243,6 +279,7 @@ std::vector<IpRule> rules() {
       quad_spi(),
       stream_fifo(),
       central_dma(),
+      video_dma(),
       {"xadc_wiz", Kind::model, "XADC with registers and alarms (PG091, UG480)",
        converter_parameters()},
       {"axi_interconnect", Kind::bus,
@@ -261,22 +298,19 @@ std::vector<IpRule> rules() {
        "AXI register slice (PG059): a way for addresses, with `read_latency` and `write_latency`"},
       {"axi_data_fifo", Kind::bus,
        "AXI data FIFO (PG059): a way for addresses, with `read_latency` and `write_latency`"},
-      {"axis_data_fifo",
-       Kind::model,
-       "AXI4-Stream FIFO of up to 32 bits, one clock (PG085)",
-       {{"FIFO_DEPTH", "512"},
-        {"FIFO_MODE", "1", {"1"}},
-        {"IS_ACLK_ASYNC", "0", {"0"}},
-        {"TDATA_NUM_BYTES", "4", {"1", "2", "3", "4"}}}},
-      {"axis_register_slice",
-       Kind::model,
-       "AXI4-Stream register slice of up to 32 bits (PG085)",
-       {{"TDATA_NUM_BYTES", "4", {"1", "2", "3", "4"}}}},
+      {"axis_data_fifo", Kind::model, "AXI4-Stream FIFO, one clock (PG085)",
+       stream_parameters(
+           {{"FIFO_DEPTH", "512"}, {"FIFO_MODE", "1", {"1"}}, {"IS_ACLK_ASYNC", "0", {"0"}}})},
+      {"axis_register_slice", Kind::model, "AXI4-Stream register slice (PG085)",
+       stream_parameters({})},
       {"axis_dwidth_converter",
        Kind::model,
-       "AXI4-Stream width converter, 8 to 32 bits (PG085)",
-       {{"S_TDATA_NUM_BYTES", "4", {"1", "2", "3", "4"}},
-        {"M_TDATA_NUM_BYTES", "4", {"1", "2", "3", "4"}}}},
+       "AXI4-Stream width converter without TUSER, TID and TDEST (PG085)",
+       {{"S_TDATA_NUM_BYTES", "4", {}, 1, 128},
+        {"M_TDATA_NUM_BYTES", "4", {}, 1, 128},
+        {"TUSER_BITS_PER_BYTE", "0", {"0"}},
+        {"TID_WIDTH", "0", {"0"}},
+        {"TDEST_WIDTH", "0", {"0"}}}},
       {"xlconcat", Kind::wiring, "concat", concat_parameters()},
       {"ilconcat", Kind::wiring, "concat", concat_parameters()},
       {"xlslice", Kind::wiring, "slice", slice},

@@ -115,6 +115,7 @@ std::string title(const sc_core::sc_object& object) {
       {"xilinx::AxiQuadSpi", "AXI Quad SPI (PG153)"},
       {"xilinx::AxiTimer", "AXI timer (PG079)"},
       {"xilinx::AxiUartlite", "AXI UART Lite (PG142)"},
+      {"xilinx::AxiVdma", "AXI VDMA (PG020)"},
       {"xilinx::ClkWiz", "Clocking wizard (PG065)"},
       {"xilinx::XadcWiz", "XADC wizard (PG091)"},
       {"ps::Gpio", "GPIO of the PS (MIO and EMIO)"},

@@ -11,6 +11,7 @@
 #include <xilinx/axi_quad_spi/axi_quad_spi.h>
 #include <xilinx/axi_timer/axi_timer.h>
 #include <xilinx/axi_uartlite/axi_uartlite.h>
+#include <xilinx/axi_vdma/axi_vdma.h>
 #include <xilinx/clk_wiz/clk_wiz.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/xadc_wiz/xadc_wiz.h>
@@ -113,6 +114,70 @@ void add_uartlite(Device& device, const xilinx::AxiUartlite& uart) {
   device.sdt_options = device.options;
 }
 
+/// The debug registers are those of Vivado's usual build: counters of frames and delays.
+void add_vdma(Device& device, const xilinx::AxiVdma& vdma) {
+  constexpr std::uint32_t address_width = 32, follows_streams = 1;
+  const xilinx::VdmaChannelBuild &mm2s = vdma.build().mm2s, &s2mm = vdma.build().s2mm;
+  const auto number = [](xilinx::GenlockMode mode) { return static_cast<std::uint32_t>(mode); };
+  device.driver = "AXIVDMA";
+  device.compatible = "xlnx,axi-vdma-6.3";
+  device.options = {{"NUM_FSTORES", mm2s.frame_stores},
+                    {"INCLUDE_MM2S", mm2s.include},
+                    {"INCLUDE_MM2S_DRE", mm2s.dre},
+                    {"M_AXI_MM2S_DATA_WIDTH", 8 * mm2s.memory_bytes},
+                    {"INCLUDE_S2MM", s2mm.include},
+                    {"INCLUDE_S2MM_DRE", s2mm.dre},
+                    {"M_AXI_S2MM_DATA_WIDTH", 8 * s2mm.memory_bytes},
+                    {"AXI_MM2S_ACLK_FREQ_HZ", 0},
+                    {"AXI_S2MM_ACLK_FREQ_HZ", 0},
+                    {"MM2S_GENLOCK_MODE", number(mm2s.genlock)},
+                    {"MM2S_GENLOCK_NUM_MASTERS", 1},
+                    {"S2MM_GENLOCK_MODE", number(s2mm.genlock)},
+                    {"S2MM_GENLOCK_NUM_MASTERS", 1},
+                    {"INCLUDE_SG", 0},
+                    {"ENABLE_VIDPRMTR_READS", 1},
+                    {"USE_FSYNC", follows_streams},
+                    {"FLUSH_ON_FSYNC", 1},
+                    {"MM2S_LINEBUFFER_DEPTH", mm2s.line_buffer},
+                    {"S2MM_LINEBUFFER_DEPTH", s2mm.line_buffer},
+                    {"INCLUDE_INTERNAL_GENLOCK", vdma.has_internal_genlock()},
+                    {"S2MM_SOF_ENABLE", 1},
+                    {"M_AXIS_MM2S_TDATA_WIDTH", 8 * mm2s.stream_bytes},
+                    {"S_AXIS_S2MM_TDATA_WIDTH", 8 * s2mm.stream_bytes},
+                    {"ENABLE_DEBUG_INFO_1", 0},
+                    {"ENABLE_DEBUG_INFO_5", 0},
+                    {"ENABLE_DEBUG_INFO_6", 1},
+                    {"ENABLE_DEBUG_INFO_7", 1},
+                    {"ENABLE_DEBUG_INFO_9", 0},
+                    {"ENABLE_DEBUG_INFO_13", 0},
+                    {"ENABLE_DEBUG_INFO_14", 1},
+                    {"ENABLE_DEBUG_INFO_15", 1},
+                    {"ENABLE_DEBUG_ALL", 0},
+                    {"ADDR_WIDTH", address_width},
+                    {"c_addr_width", address_width},
+                    {"c_enable_vert_flip", 0}};
+  device.sdt_options = {{"NUM_FSTORES", mm2s.frame_stores},
+                        {"INCLUDE_MM2S", mm2s.include},
+                        {"INCLUDE_MM2S_DRE", mm2s.dre},
+                        {"MM2S_DATA_WIDTH", 8 * mm2s.memory_bytes},
+                        {"INCLUDE_S2MM", s2mm.include},
+                        {"INCLUDE_S2MM_DRE", s2mm.dre},
+                        {"S2MM_DATA_WIDTH", 8 * s2mm.memory_bytes},
+                        {"INCLUDE_SG", 0},
+                        {"ENABLE_VIDPARAM_READS", 1},
+                        {"FLUSH_FSYNC", follows_streams},
+                        {"FLUSH_ON_FSYNC", 1},
+                        {"MM2S_LINEBUFFER_DEPTH", mm2s.line_buffer},
+                        {"S2MM_LINEBUFFER_DEPTH", s2mm.line_buffer},
+                        {"MM2S_GENLOCK_MODE", number(mm2s.genlock)},
+                        {"S2MM_GENLOCK_MODE", number(s2mm.genlock)},
+                        {"INCLUDE_INTERNAL_GENLOCK", vdma.has_internal_genlock()},
+                        {"S2MM_SOF_ENABLE", 1},
+                        {"MM2S_TDATA_WIDTH", 8 * mm2s.stream_bytes},
+                        {"S2MM_TDATA_WIDTH", 8 * s2mm.stream_bytes},
+                        {"ADDRWIDTH", address_width}};
+}
+
 void add_bram(Device& device) {
   constexpr std::uint32_t width = 32;
   device.driver = "BRAM";
@@ -193,6 +258,8 @@ void add_build(Device& device, const sc_core::sc_object& module) {
                       {"ADDR_WIDTH", 32},          {"INCLUDE_SG", 0}};
     device.sdt_options = {
         {"DATA_WIDTH", width}, {"MAX_BURST_LEN", cdma->burst_beats}, {"ADDRWIDTH", 32}};
+  } else if (const auto* vdma = dynamic_cast<const xilinx::AxiVdma*>(&module)) {
+    add_vdma(device, *vdma);
   } else if (dynamic_cast<const xilinx::XadcWiz*>(&module)) {
     device.driver = "SYSMON";
     device.compatible = "xlnx,xadc-wiz-3.3";

@@ -1,8 +1,7 @@
 #ifndef XAXIVDMA_H_
 #define XAXIVDMA_H_
 
-/* AXI VDMA, which has no model: a program that calls these functions compiles, and is refused by
- * their names when it is loaded, unless they come from VENDOR_BSP or the program itself. */
+/* AXI VDMA in direct register mode (PG020). */
 
 #include <xil_assert.h>
 #include <xil_io.h>
@@ -50,6 +49,13 @@ extern "C" {
 #define XAXIVDMA_IXR_FRMCNT_MASK 0x00001000
 #define XAXIVDMA_IXR_DELAYCNT_MASK 0x00002000
 #define XAXIVDMA_IXR_ERROR_MASK 0x00004000
+#define XAXIVDMA_SR_ERR_INTERNAL_MASK 0x00000010
+#define XAXIVDMA_SR_ERR_SLAVE_MASK 0x00000020
+#define XAXIVDMA_SR_ERR_DECODE_MASK 0x00000040
+#define XAXIVDMA_SR_ERR_FSZ_LESS_MASK 0x00000080
+#define XAXIVDMA_SR_ERR_LSZ_LESS_MASK 0x00000100
+#define XAXIVDMA_SR_ERR_FSZ_MORE_MASK 0x00000800
+#define XAXIVDMA_SR_ERR_LSZ_MORE_MASK 0x00008000
 #define XAXIVDMA_IXR_COMPLETION_MASK 0x00003000
 #define XAXIVDMA_IXR_ALL_MASK 0x00007000
 #define XAxiVdma_ReadReg(BaseAddress, RegOffset) Xil_In32((BaseAddress) + (RegOffset))
@@ -83,6 +89,8 @@ typedef struct {
   int S2MmStreamWidth;
   int AddrWidth;
   u8 HasVFlip;
+  u32 IntrId[2];
+  UINTPTR IntrParent;
 } XAxiVdma_Config;
 
 typedef struct {
@@ -111,8 +119,21 @@ typedef struct {
   UINTPTR ChanBase;
   UINTPTR InstanceBase;
   UINTPTR StartAddrBase;
+  int HasSG;
+  int IsRead;
+  int HasDRE;
+  int WordLength;
+  int StreamWidth;
+  int GenLock;
   int IsValid;
   int NumFrames;
+  int AllCnt;
+  u32 Vsize;
+  u32 Hsize;
+  XAxiVdma_CallBack CompletionCallBack;
+  void* CompletionRef;
+  XAxiVdma_ErrorCallBack ErrCallBack;
+  void* ErrRef;
 } XAxiVdma_Channel;
 
 typedef struct {

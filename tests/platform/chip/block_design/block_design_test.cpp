@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(a_bus_whose_only_master_is_a_stub_is_built) {
 BOOST_AUTO_TEST_CASE(stubs_and_memories_have_the_names_of_their_drivers) {
   std::string text = replaced(small_design(), "parts:\n",
                               "parts:\n  video:\n    ip: xilinx.com:ip:axi_vdma:6.3\n"
-                              "    buses: {S_AXI_LITE: periph.M03_AXI}\n"
+                              "    as: stub\n    buses: {S_AXI_LITE: periph.M03_AXI}\n"
                               "  shared:\n    ip: xilinx.com:ip:axi_bram_ctrl:4.1\n"
                               "    pins: {s_axi_aclk: ps.FCLK_CLK0}\n"
                               "    buses: {S_AXI: periph.M04_AXI}\n");
