@@ -47,7 +47,7 @@ int list_studies(std::ostream& out) {
 }
 
 void show_points(const study::Manifest& manifest, std::ostream& out) {
-  std::vector<std::string> head = study::short_names(manifest.swept);
+  std::vector<std::string> head = result::short_names(manifest.swept);
   head.emplace_back("key");
   result::TextTable table(head);
   for (std::size_t i = 0; i < std::min(shown_points, manifest.points.size()); ++i) {

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <utility>
 
 namespace platform::result {
@@ -110,6 +111,34 @@ std::string csv_number(double value) {
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr;
   return {text.data(), end};
+}
+
+namespace {
+
+std::string last_parts(const std::string& name, std::size_t count) {
+  if (name.find(' ') != std::string::npos) return name;  // an expression
+  const std::vector<std::string> parts = vp::split(name, '.');
+  const std::size_t first = parts.size() > count ? parts.size() - count : 0;
+  return vp::join({parts.begin() + static_cast<std::ptrdiff_t>(first), parts.end()}, ".");
+}
+
+}  // namespace
+
+std::vector<std::string> short_names(const std::vector<std::string>& names) {
+  for (std::size_t count = 1; count < 8; ++count) {
+    std::vector<std::string> result;
+    result.reserve(names.size());
+    for (const std::string& name : names) result.push_back(last_parts(name, count));
+    const std::set<std::string> different(result.begin(), result.end());
+    // One part says too little where it is the word for a kind of figure.
+    const bool vague = std::any_of(result.begin(), result.end(), [](const std::string& name) {
+      const std::set<std::string> words{"mean", "max",       "min",   "nominal", "low",
+                                        "high", "frequency", "total", "met",     "frame"};
+      return words.count(name) != 0;
+    });
+    if (different.size() == names.size() && !vague) return result;
+  }
+  return names;
 }
 
 }  // namespace platform::result

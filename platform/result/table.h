@@ -16,6 +16,9 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// The last parts of dotted names, as many as tell them apart: heads of columns.
+std::vector<std::string> short_names(const std::vector<std::string>& names);
+
 /// A number in as many digits as a reader needs: "92.493", "0.0213", "12400".
 std::string readable(double value);
 

@@ -10,7 +10,6 @@
 #include <result/table.h>
 #include <study/doubt.h>
 #include <study/pareto.h>
-#include <study/report.h>
 #include <study/results.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -333,7 +332,7 @@ std::string pareto_table(const Results& results, const std::vector<Objective>& o
                          const Pareto& pareto) {
   std::vector<std::string> names = results.manifest.swept;
   for (const std::string& text : texts(objectives)) names.push_back(text);
-  std::vector<std::string> head = short_names(names);
+  std::vector<std::string> head = result::short_names(names);
   head.emplace_back("");
   result::TextTable table(head);
   for (const std::size_t i : best_first(pareto, objectives)) {

@@ -21,34 +21,6 @@ namespace platform::study {
 
 namespace {
 
-std::string last_parts(const std::string& name, std::size_t count) {
-  if (name.find(' ') != std::string::npos) return name;  // an expression
-  const std::vector<std::string> parts = vp::split(name, '.');
-  const std::size_t first = parts.size() > count ? parts.size() - count : 0;
-  return vp::join({parts.begin() + static_cast<std::ptrdiff_t>(first), parts.end()}, ".");
-}
-
-}  // namespace
-
-std::vector<std::string> short_names(const std::vector<std::string>& names) {
-  for (std::size_t count = 1; count < 8; ++count) {
-    std::vector<std::string> result;
-    result.reserve(names.size());
-    for (const std::string& name : names) result.push_back(last_parts(name, count));
-    const std::set<std::string> different(result.begin(), result.end());
-    // One part says too little where it is the word for a kind of figure.
-    const bool vague = std::any_of(result.begin(), result.end(), [](const std::string& name) {
-      const std::set<std::string> words{"mean", "max",       "min",   "nominal", "low",
-                                        "high", "frequency", "total", "met",     "frame"};
-      return words.count(name) != 0;
-    });
-    if (different.size() == names.size() && !vague) return result;
-  }
-  return names;
-}
-
-namespace {
-
 /// Columns of figures that fit a terminal.
 constexpr std::size_t most_figures = 6;
 /// Reasons of failure that are printed.
@@ -130,7 +102,7 @@ class PointLines {
   std::string text(const Points& points, const std::string& heading, const Words& words) {
     std::vector<std::string> names = paths_;
     for (const Column& column : columns_) names.push_back(column.text);
-    std::vector<std::string> head = short_names(names);
+    std::vector<std::string> head = result::short_names(names);
     head.push_back(heading);
     result::TextTable table(head);
     const std::size_t shown = std::min(left_, points.size());

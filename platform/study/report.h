@@ -7,9 +7,6 @@
 
 namespace platform::study {
 
-/// The last parts of dotted names, as many as tell them apart.
-std::vector<std::string> short_names(const std::vector<std::string>& names);
-
 /// What a sweep found, for a terminal: the best points first, then those that are not feasible and
 /// those that failed, with why, at most `most_rows` in all; and the sweep's own text, which speaks
 /// of all its points and is left out where some are missing.

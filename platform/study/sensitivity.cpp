@@ -4,7 +4,6 @@
 #include <result/metrics.h>
 #include <result/table.h>
 #include <study/comparison.h>
-#include <study/report.h>
 #include <study/results.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -403,7 +402,7 @@ std::vector<std::string> texts(const std::vector<vp::Expression>& figures) {
 
 std::string effects_table(const StepEffects& effects) {
   std::vector<std::string> head{"parameter", "from", "to"};
-  for (const std::string& name : short_names(texts(effects.figures))) head.push_back(name);
+  for (const std::string& name : result::short_names(texts(effects.figures))) head.push_back(name);
   head.emplace_back("");
   result::TextTable table(head);
   std::vector<std::string> base{"this point", "", ""};
