@@ -111,6 +111,25 @@ static void masked(void) {
   if (read(file, &off, sizeof off) != sizeof off) exit(13);
 }
 
+static void no_interrupt(void) {
+  uint32_t count = 0;
+  const int file = open("/dev/uio2", O_RDWR);
+  struct pollfd wanted = {file, POLLIN, 0};
+  if (poll(&wanted, 1, -1) != 1) exit(12);
+  if (read(file, &count, sizeof count) != -1 || errno != EIO) exit(13);
+  if (write(file, &count, sizeof count) != -1 || errno != EIO) exit(14);
+}
+
+/* A buffer that the program has as a constant, and the board's tree would reserve. */
+static void constant_address(void) {
+  volatile uint32_t* const dma = map_at(0x40400000, MAP_SHARED);
+  gpio()[DATA] = 0x10;
+  dma[0] = 1;
+  dma[6] = 0x18000000;
+  dma[10] = 128;
+  usleep(100);
+}
+
 static void* touch(void* registers) {
   ((volatile uint32_t*)registers)[DATA] = 1;
   return NULL;
@@ -253,6 +272,8 @@ int main(int count, char** words) {
                   {"sleeping", sleeping},
                   {"waiting", waiting},
                   {"masked", masked},
+                  {"no_interrupt", no_interrupt},
+                  {"constant_address", constant_address},
                   {"threads", threads},
                   {"forks", forks},
                   {"starts", starts},
