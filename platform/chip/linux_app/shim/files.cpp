@@ -154,8 +154,8 @@ ssize_t write_uio(const Open& open, const void* buffer, std::size_t size) {
 
 void* map_memory(void* address, std::size_t length, int protection, int flags, std::uint64_t bus,
                  std::uint64_t how) {
-  void* const got = REAL(mmap)(address, length, protection, flags, memory_file(),
-                               static_cast<off_t>(bus - memory_first));
+  void* const got = map_low(address, length, protection, flags, memory_file(),
+                            static_cast<off_t>(bus - memory_first));
   if (got != MAP_FAILED) ask(What::map, bus, length, how);
   return got;
 }
