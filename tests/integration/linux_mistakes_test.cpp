@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(accesses_that_no_device_takes) {
                      " of program 'mistakes', pc 0x", " unmapped+0x", "mistakes.c:34)", in_main});
   stops("unaligned", {"unaligned access: 4 bytes at 0x41200002", "SIGBUS", "mistakes.c:42)"});
   stops("wide", {"8 bytes at once: 'unsigned long' has 8 bytes here", "mistakes.c:47)"});
-  stops("vector", {"0x41200000 with ", "not with memcpy()", "mistakes.c:53)"});
+  stops("vector", {"0x41200000 with a vector instruction", "or with memcpy()", "mistakes.c:53)"});
   stops("atomic", {"an atomic operation, which device registers do not have", "mistakes.c:58)"});
   stops("copying", {"from register to register in one instruction, at 0x41200000"});
 }

@@ -124,6 +124,26 @@ static int accesses(void) {
   return 0;
 }
 
+/* Of the C library, whose own instructions are as wide as the computer has them. */
+static int copies(volatile uint32_t* registers) {
+  void* (*volatile copy)(void*, const void*, size_t) = memcpy;
+  void* (*volatile move)(void*, const void*, size_t) = memmove;
+  void* (*volatile fill)(void*, int, size_t) = memset;
+  uint32_t from[40], to[41] = {0};
+  for (uint32_t i = 0; i < 40; ++i) from[i] = 0x01020304 * i;
+  EXPECT(copy((void*)registers, from, sizeof from) == (void*)registers);
+  for (int i = 0; i < 40; ++i) EXPECT(registers[i] == from[i]);
+  EXPECT(copy((char*)to + 1, (void*)registers, 157) == (char*)to + 1);
+  EXPECT(memcmp((char*)to + 1, from, 157) == 0 && ((char*)to)[158] == 0);
+  move((void*)(registers + 1), (void*)registers, 12);
+  EXPECT(registers[1] == from[0] && registers[2] == from[1] && registers[3] == from[2]);
+  move((void*)registers, (void*)(registers + 1), 12);
+  EXPECT(registers[0] == from[0] && registers[1] == from[1] && registers[2] == from[2]);
+  fill((void*)registers, 0xA5, 16);
+  EXPECT(registers[3] == 0xA5A5A5A5 && registers[4] == from[4]);
+  return 0;
+}
+
 /* The ways to copy that need no wide accesses. */
 static int strings(void) {
   volatile uint32_t* registers = map(open_file("/dev/mem", O_RDWR), 4096, OCM + 0x1000);
@@ -142,7 +162,7 @@ static int strings(void) {
   count = 8;
   __asm__ volatile("rep stosl" : "+D"(target), "+c"(count) : "a"(7) : "memory");
   for (int i = 0; i < 8; ++i) EXPECT(registers[i] == 7);
-  return 0;
+  return copies(registers);
 }
 
 static void write_text(const char* path, const char* text) {

@@ -111,6 +111,8 @@ void* map_low(void* address, std::size_t length, int protection, int flags, int 
 /// word in the page, so that it does what it always does.
 void* map_registers(void* address, std::size_t length, int protection, int flags,
                     std::uint32_t bus_address);
+/// An address of device registers.
+bool are_registers(const void* address);
 /// What the application may do with them. False: there are none.
 bool protect_registers(void* address, std::size_t length, int protection);
 /// They are registers no more.

@@ -170,8 +170,9 @@ void* map(const Open& open, void* address, std::size_t length, int protection, i
                         offset <= (open.kind == Kind::uio ? 0 : size - pages);
   if (!is_there) {
     warn_of_invalid(
-        "mmap() of %zu bytes at offset 0x%llX: of this file 0x%llX can be mapped, by pages", length,
-        static_cast<unsigned long long>(offset), static_cast<unsigned long long>(size));
+        "mmap() of %zu bytes at offset 0x%llX: of this file 0x%llX can be mapped, by pages%s",
+        length, static_cast<unsigned long long>(offset), static_cast<unsigned long long>(size),
+        open.kind == Kind::buffer ? "; linux.udmabuf_size makes it larger" : "");
     return MAP_FAILED;
   }
   const std::uint64_t how = open.sync ? std::uint64_t{linux_app::o_sync} : 0;

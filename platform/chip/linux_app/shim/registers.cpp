@@ -264,6 +264,10 @@ void* map_registers(void* address, std::size_t length, int protection, int flags
   return got;
 }
 
+bool are_registers(const void* address) {
+  return find(reinterpret_cast<std::uintptr_t>(address)) != nullptr;
+}
+
 // What is left of a mapping lies before or behind.
 void unmap_registers(void* address, std::size_t length) {
   const auto first = reinterpret_cast<std::uintptr_t>(address);
