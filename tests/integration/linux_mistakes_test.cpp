@@ -98,6 +98,8 @@ BOOST_AUTO_TEST_CASE(what_bare_metal_programs_are_told_too) {
         {"mmap() of 4096 bytes at offset 0x1000: of this file 0x10000 can be mapped",
          "beyond_a_map+0x"});
   warns("no_interrupt", {"/dev/uio2 give EIO: axi_gpio_0 has no interrupt", " no_interrupt+0x"});
+  warns("uncleared", {"/dev/uio0 interrupts again, and the application has not accessed axi_dma_0",
+                      " uncleared+0x"});
   warns("constant_address",
         {"a DMA reads 0x18000000, which is no memory of the application's",
          "/dev/udmabuf0 has 1048576 bytes at 0x10", "set linux.udmabuf_address=0x18000000"});

@@ -154,7 +154,8 @@ void LinuxRun::make_uios() {
   uios_.resize(uios.size());
   for (std::size_t i = 0; i < uios.size(); ++i) {
     folder_->add(uios[i], i);
-    uios_[i] = {uios[i].interrupt, true, 0};
+    uios_[i].interrupt = uios[i].interrupt;
+    uios_[i].enabled = true;
     if (uios[i].interrupt != 0)
       gic_.connect(uios[i].interrupt, drivers::Trigger::level_high, &on_interrupt, &uios_[i]);
     print("linux: /dev/uio" + std::to_string(i) + " is " + uios[i].device +
@@ -302,12 +303,21 @@ void LinuxRun::open(const Request& request, Reply& reply) {
   }
 }
 
+void LinuxRun::note_access(std::uint32_t address) {
+  for (std::size_t i = 0; i < uios_.size(); ++i) {
+    const LinuxDevices::Uio& uio = devices_->uios()[i];
+    if (address >= uio.base && address - uio.base < uio.size) uios_[i].touched = true;
+  }
+}
+
 std::uint32_t LinuxRun::read(std::uint32_t address, std::uint32_t size) {
+  note_access(address);
   const std::uint32_t word = hal_read32(address & ~3u) >> (address & 3) * 8;
   return size == 4 ? word : word & ((1u << size * 8) - 1);
 }
 
 void LinuxRun::write(std::uint32_t address, std::uint32_t value, std::uint32_t size) {
+  note_access(address);
   if (size == 4) return hal_write32(address, value);
   if (!std::exchange(warned_of_parts_, true)) {
     hal_warn(("a write of " + std::to_string(size) + (size == 1 ? " byte" : " bytes") + " to " +
@@ -374,6 +384,9 @@ bool LinuxRun::has_interrupt(std::size_t number, Reply& reply) {
 // As uio_pdrv_genirq: an interrupt masks itself, and its handler unmasks it again.
 void LinuxRun::on_interrupt(void* context) {
   Uio& uio = *static_cast<Uio*>(context);
+  if (!uio.touched)
+    active->warn_of_uncleared(static_cast<std::size_t>(&uio - active->uios_.data()));
+  uio.touched = false;
   ++uio.count;
   uio.enabled = false;
   hal_write32(distributor(gic::ICDICER(uio.interrupt / 32)), 1u << uio.interrupt % 32);
@@ -406,6 +419,17 @@ void LinuxRun::warn_of_masked(std::size_t number) const {
        ", which is masked: each one masks it, and so does writing 0; write 1 (a uint32_t) to " +
        file + " before it waits")
           .c_str());
+}
+
+void LinuxRun::warn_of_uncleared(std::size_t number) {
+  if (std::exchange(warned_of_uncleared_, true)) return;
+  const std::string file = "/dev/uio" + std::to_string(number);
+  const std::string device = devices_->uios()[number].device;
+  hal_warn((file + " interrupts again, and the application has not accessed " + device +
+            " since its last interrupt: the line is still high, so that read() returns at once, "
+            "whatever the device does; clear the interrupt in the registers of " +
+            device + " before 1 is written to " + file)
+               .c_str());
 }
 
 void LinuxRun::on_alarm(void* context) {

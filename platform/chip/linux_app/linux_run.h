@@ -46,6 +46,7 @@ class LinuxRun {
     std::uint32_t interrupt = 0;  ///< 0: it has none
     bool enabled = false;
     std::uint32_t count = 0;
+    bool touched = true;  ///< the application accessed the device since the last one
   };
   /// A u-dma-buf: its attributes are those of the driver.
   struct Buffer {
@@ -68,10 +69,12 @@ class LinuxRun {
   void write(std::uint32_t address, std::uint32_t value, std::uint32_t size);
   void map(const Request& request);
   std::string owner_problem(std::uint64_t address, std::uint64_t bytes) const;
+  void note_access(std::uint32_t address);
   bool has_interrupt(std::size_t number, Reply& reply);
   void control(Uio& uio, bool enable);
   std::uint32_t await_interrupt(std::size_t number, std::uint32_t seen, bool waits);
   void warn_of_masked(std::size_t number) const;
+  void warn_of_uncleared(std::size_t number);
   int store(Buffer& buffer, std::size_t number, const std::string& text);
   void show(const Buffer& buffer, std::size_t number) const;
   void show(std::size_t number, const std::string& attribute, const std::string& value) const;
@@ -108,6 +111,7 @@ class LinuxRun {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> memory_;  ///< [first, end)
   bool connected_ = false;                                       ///< the shim has said hello
   bool warned_of_parts_ = false;
+  bool warned_of_uncleared_ = false;
 
   bool waits_ = false;                ///< the application, for an answer
   std::optional<std::string> place_;  ///< where it waits, once it was asked, or said so

@@ -182,6 +182,23 @@ static void unflushed(void) {
   usleep(100);
 }
 
+/* The interrupt that a level keeps up is there again as soon as it is unmasked. */
+static void uncleared(void) {
+  uint32_t count = 0, on = 1;
+  const int file = open("/dev/uio0", O_RDWR);
+  volatile uint32_t* dma = map_at(0x40400000, MAP_SHARED);
+  map_at(0x18000000, MAP_SHARED);
+  gpio()[DATA] = 0x10;
+  dma[0] = 0x1001;
+  dma[6] = 0x18000000;
+  dma[10] = 128;
+  for (int i = 0; i < 2; ++i) {
+    if (read(file, &count, sizeof count) != sizeof count) exit(12);
+    if (write(file, &on, sizeof on) != sizeof on) exit(13);
+  }
+  if (count != 2) exit(14);
+}
+
 static void beyond(void) {
   volatile uint32_t* dma = map_at(0x40400000, MAP_SHARED);
   gpio()[DATA] = 0x10;
@@ -284,6 +301,7 @@ int main(int count, char** words) {
                   {"expands", expands},
                   {"reopens", reopens},
                   {"unflushed", unflushed},
+                  {"uncleared", uncleared},
                   {"beyond", beyond},
                   {"no_device", no_device},
                   {"beyond_a_map", beyond_a_map},
