@@ -25,6 +25,7 @@ enum { ENA = 1, RST = 2, READY = 0xC, WR_EN = 0x10 };
 #define END_OF_FRAME 0xFFFFFFFFu
 #define CONTROL_ADDRESS 0x41200000
 #define FEATURE_ADDRESS 0x41210000
+#define DMA_ADDRESS 0x40400000
 
 static void check(int fine, const char* what) {
   if (fine) return;
@@ -45,16 +46,12 @@ static void write_attribute(const char* path, const char* text) {
   check(file && fputs(text, file) >= 0 && fclose(file) == 0, path);
 }
 
-/* The number of the uio with that name; the device tree may put it anywhere. */
-static int find_uio(const char* name) {
+/* The number of the uio whose registers are there; the device tree may put it anywhere. */
+static int find_uio(unsigned long address) {
   for (int number = 0;; ++number) {
-    char path[64], found[64] = "";
-    snprintf(path, sizeof path, "/sys/class/uio/uio%d/name", number);
-    FILE* file = fopen(path, "r");
-    check(file != NULL, name);
-    check(fscanf(file, "%63s", found) == 1, path);
-    fclose(file);
-    if (strcmp(found, name) == 0) return number;
+    char path[64];
+    snprintf(path, sizeof path, "/sys/class/uio/uio%d/maps/map0/addr", number);
+    if (attribute(path) == address) return number;
   }
 }
 
@@ -92,7 +89,7 @@ int main(void) {
   volatile uint32_t* const features = map(memory, FEATURE_ADDRESS);
 
   char path[32];
-  snprintf(path, sizeof path, "/dev/uio%d", find_uio("axi_dma_0"));
+  snprintf(path, sizeof path, "/dev/uio%d", find_uio(DMA_ADDRESS));
   const int uio = open(path, O_RDWR);
   check(uio >= 0, path);
   volatile uint32_t* const dma = map(uio, 0);

@@ -269,6 +269,15 @@ void add_map(CLI::App& app, MapOptions& target) {
   command->add_flag("--markdown", target.markdown, "everything, as a page of the documentation");
   command->add_flag("--xparameters", target.xparameters,
                     "xparameters.h, as bare-metal code includes it");
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--device-tree",
+          [&target](const std::vector<std::string>& files) {
+            target.device_tree = files.empty() ? "" : files.front();
+          },
+          "the device tree that Linux would have, into a file (default: printed)")
+      ->expected(0, 1)
+      ->type_name("[FILE]");
   command->add_option("--diagram", target.diagram, "draw a design in YAML: .svg, .png or .dot")
       ->type_name("FILE");
   add_design_option(*command, target.configuration);

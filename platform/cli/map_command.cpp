@@ -7,6 +7,7 @@
 #include <chip/system/ps_blocks.h>
 #include <cli/commands.h>
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
@@ -207,8 +208,8 @@ void print_devices(const HardwareMap& map, std::ostream& out) {
 }
 
 /// With the file that a Linux application finds it at.
-void print_interrupts(const HardwareMap& map, std::ostream& out) {
-  const std::vector<LinuxDevices::Uio> uios = LinuxDevices::uios_of(map);
+void print_interrupts(const HardwareMap& map, device_tree::Node tree, std::ostream& out) {
+  const std::vector<LinuxDevices::Uio> uios = LinuxDevices::make_uios(tree, {});
   const auto file = [&uios](std::uint32_t id) -> std::string {
     for (std::size_t i = 0; i < uios.size(); ++i) {
       if (uios[i].interrupt == id) return "/dev/uio" + std::to_string(i);
@@ -279,9 +280,10 @@ const HardwareMap::Device& find_device(const HardwareMap& map, const std::string
                        "there are " + vp::join(names, ", "));
 }
 
-void print_overview(const HardwareMap& map, bool registers, std::ostream& out) {
+void print_overview(const HardwareMap& map, const device_tree::Node& tree, bool registers,
+                    std::ostream& out) {
   print_devices(map, out);
-  print_interrupts(map, out);
+  print_interrupts(map, tree, out);
   print_clocks(map, out);
   if (!registers) {
     out << "\n'markervp map DEVICE' shows the registers of a device.\n";
@@ -307,6 +309,17 @@ int draw_map(const MapOptions& options, std::ostream& out) {
   return done;
 }
 
+int write_device_tree(const device_tree::Node& tree, const std::string& file, std::ostream& out) {
+  const std::string text = "/dts-v1/;\n\n" + device_tree::text(tree);
+  if (file.empty()) {
+    out << text;
+  } else {
+    vp::write_file(file, text);
+    out << "wrote " << file << "\n";
+  }
+  return done;
+}
+
 }  // namespace
 
 int print_map(const MapOptions& options, std::ostream& out) {
@@ -315,7 +328,10 @@ int print_map(const MapOptions& options, std::ostream& out) {
   load_configuration(options.configuration, configuration);
   SimulationOptions asked;
   asked.is_only_shown = true;
-  const HardwareMap map = hardware_map(build(configuration, asked)->zynq());
+  const auto simulation = build(configuration, asked);
+  Zynq& zynq = simulation->zynq();
+  if (options.device_tree) return write_device_tree(hardware_tree(zynq), *options.device_tree, out);
+  const HardwareMap map = hardware_map(zynq);
   if (options.markdown) {
     out << map_as_markdown(map);
   } else if (options.xparameters) {
@@ -323,7 +339,7 @@ int print_map(const MapOptions& options, std::ostream& out) {
   } else if (!options.device.empty()) {
     print_registers(find_device(map, options.device), out);
   } else {
-    print_overview(map, options.registers, out);
+    print_overview(map, hardware_tree(zynq), options.registers, out);
   }
   return done;
 }

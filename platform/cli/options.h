@@ -162,11 +162,12 @@ struct ConfigOptions : PlatformOptions {
 
 /// `markervp map`.
 struct MapOptions {
-  std::string device;        ///< empty: the memory map
-  bool registers = false;    ///< of all devices
-  bool markdown = false;     ///< the page of the documentation
-  bool xparameters = false;  ///< the header of a board support package
-  std::string diagram;       ///< file for a picture of a design in YAML; empty: none
+  std::string device;                      ///< empty: the memory map
+  bool registers = false;                  ///< of all devices
+  bool markdown = false;                   ///< the page of the documentation
+  bool xparameters = false;                ///< the header of a board support package
+  std::optional<std::string> device_tree;  ///< file for it; empty: standard output
+  std::string diagram;                     ///< file for a picture of a design in YAML; empty: none
   ConfigurationOptions configuration;
 };
 

@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(accesses_that_no_device_takes) {
                      " of program 'mistakes', pc 0x", " unmapped+0x", "mistakes.c:34)", in_main});
   stops("unaligned", {"unaligned access: 4 bytes at 0x41200002", "SIGBUS", "mistakes.c:42)"});
   stops("wide", {"8 bytes at once: 'unsigned long' has 8 bytes here", "mistakes.c:47)"});
-  stops("vector", {"0x41200000 with ", "not with memcpy()", "mistakes.c:53)"});
+  stops("vector", {"0x41200000 with a vector instruction", "or with memcpy()", "mistakes.c:53)"});
   stops("atomic", {"an atomic operation, which device registers do not have", "mistakes.c:58)"});
   stops("copying", {"from register to register in one instruction, at 0x41200000"});
 }
@@ -97,6 +97,15 @@ BOOST_AUTO_TEST_CASE(what_bare_metal_programs_are_told_too) {
   warns("beyond_a_map",
         {"mmap() of 4096 bytes at offset 0x1000: of this file 0x10000 can be mapped",
          "beyond_a_map+0x"});
+  warns("no_interrupt", {"/dev/uio2 give EIO: axi_gpio_0 has no interrupt", " no_interrupt+0x"});
+  warns("uncleared", {"/dev/uio0 interrupts again, and the application has not accessed axi_dma_0",
+                      " uncleared+0x"});
+  warns("constant_address",
+        {"a DMA reads 0x18000000, which is no memory of the application's",
+         "/dev/udmabuf0 has 1048576 bytes at 0x10", "set linux.udmabuf_address=0x18000000"});
+  const kit::Outcome owned =
+      run(arguments("constant_address", {"--set", "linux.udmabuf_address=0x18000000"}));
+  BOOST_TEST(owned.err.find("no memory of the application's") == std::string::npos, owned.err);
   warns("beyond", {"MM2S transfer of 128 bytes at 0x80000000 leaves the memory", " beyond+0x"});
 }
 
@@ -166,7 +175,11 @@ BOOST_AUTO_TEST_CASE(what_is_no_application) {
   std::string bytes = kit::read_file(copy("arm", perms::owner_all));
   bytes[18] = 40;  // e_machine
   kit::write_file(*this / "arm", bytes);
-  refuses({"--linux", *this / "arm"}, {"is for another machine, ARM", "not a cross compiler"});
+  refuses({"--linux", *this / "arm"}, {"is for ARM, 32 bits", "no cross compiler"});
+  bytes[18] = 3;
+  bytes[4] = 1;  // EI_CLASS
+  kit::write_file(*this / "arm", bytes);
+  refuses({"--linux", *this / "arm"}, {"is of 32 bits (gcc -m32), and the shim has 64"});
   bytes = kit::read_file(copy("musl", perms::owner_all));
   const std::string loader = "ld-linux";
   BOOST_TEST_REQUIRE((bytes.find(loader) != std::string::npos));
@@ -259,6 +272,15 @@ BOOST_AUTO_TEST_CASE(what_does_not_go_together) {
   refuses({"--linux", gpio, "--fit", "crop"}, {"--linux with --fit"});
   refuses({"--linux", gpio, "--set", "linux.udmabuf_size=512 MiB"},
           {"do not fit into the DMA memory"});
+  const std::string address = "linux.udmabuf_address=", uio = "linux.uio=";
+  refuses({"--linux", gpio, "--set", address + "0x18000001"}, {"no multiple of a page"});
+  refuses({"--linux", gpio, "--set", address + "0x1FFFF000"},
+          {"leave the DDR, 0x00100000 to 0x1FFFFFFF"});
+  refuses({"--linux", gpio, "--set", address + "0x10000000"}, {" is in use: take a higher"});
+  refuses({"--linux", gpio, "--set", uio + "axi_dma_2"}, {"did you mean 'axi_dma_"});
+  refuses({"--linux", gpio, "--set", uio + "axi_dma_0.irq"}, {"axi_dma_0 has mm2s_introut"});
+  refuses({"--linux", gpio, "--set", uio + "axi_gpio_0.irq"}, {"has no interrupt at the PS"});
+  refuses({"--linux", gpio, "--set", uio + "axi_dma_0, b=axi_dma_0"}, {"61 is taken twice"});
   refuses({"--program", "blink", "--set", "linux.udmabufs=2"}, {"linux.udmabufs"});
 }
 

@@ -27,10 +27,12 @@ struct Linux : Workplace {
     BOOST_TEST(outcome.err == "");
     return outcome;
   }
+  const Arguments loop_options{"--design", MARKERVP_LOOP_DESIGN, "--set",
+                               "linux.uio=axi_dma_0, axi_dma_0.s2mm_introut, my-buttons=buttons"};
   /// A case of works.c, in the design with a DMA engine that copies.
   void loops(const std::string& what) const {
     for (const std::string application : {"works_0", "works", "works_2"})
-      works(application, {what}, {"--design", MARKERVP_LOOP_DESIGN});
+      works(application, {what}, loop_options);
   }
 };
 
@@ -59,6 +61,7 @@ BOOST_AUTO_TEST_CASE(the_example_of_gpio) {
 BOOST_AUTO_TEST_CASE(the_example_of_features_finds_the_square_at_both_fidelities) {
   const kit::Outcome tlm = works("features", {});
   BOOST_TEST(contains(tlm.out, "linux: /dev/uio0 is axi_dma_0, interrupt 61, at 0x40400000\n"));
+  BOOST_TEST(contains(tlm.out, "linux: /dev/uio2 is axi_gpio_0, no interrupt, at 0x41200000\n"));
   BOOST_TEST(contains(tlm.out, "linux: /dev/udmabuf0 has 1048576 bytes at 0x10"));
   for (const std::string corner : {"(200, 120)", "(359, 120)", "(200, 279)", "(359, 279)"})
     BOOST_TEST(contains(tlm.out, "corner at " + corner + "\n"), tlm.out);
@@ -90,6 +93,10 @@ BOOST_AUTO_TEST_CASE(each_kind_of_access) {
 
 BOOST_AUTO_TEST_CASE(sysfs) {
   loops("tree");
+}
+
+BOOST_AUTO_TEST_CASE(the_device_tree) {
+  loops("device_tree");
 }
 
 BOOST_AUTO_TEST_CASE(dma_through_a_cached_buffer_and_an_interrupt) {
@@ -133,26 +140,28 @@ BOOST_AUTO_TEST_CASE(an_application_with_a_sanitizer) {
     BOOST_TEST_REQUIRE(built.exit_code == 0, built.err);
     return file;
   };
-  const auto start = [this](const std::string& file, const std::string& design,
+  const auto start = [this](const std::string& file, const Arguments& options,
                             const Arguments& arguments) {
-    Arguments all{"--linux", file, "--no-report", "--design", design, "--"};
+    Arguments all{"--linux", file, "--no-report"};
+    all.insert(all.end(), options.begin(), options.end());
+    all.push_back("--");
     all.insert(all.end(), arguments.begin(), arguments.end());
     return run(all);
   };
   const std::string works = sanitized("works");
   for (const std::string what : {"tree", "strings", "cached_loop", "waiting", "copied", "times"}) {
-    const kit::Outcome outcome = start(works, MARKERVP_LOOP_DESIGN, {what});
+    const kit::Outcome outcome = start(works, loop_options, {what});
     BOOST_TEST(outcome.exit_code == 0, what << ": " << outcome.out << outcome.err);
     BOOST_TEST(outcome.err == "");
   }
   const std::string mistakes = sanitized("mistakes");
-  kit::Outcome outcome = start(mistakes, "thesis", {"beyond_an_array"});
+  kit::Outcome outcome = start(mistakes, {}, {"beyond_an_array"});
   BOOST_TEST(outcome.exit_code == 1);
   BOOST_TEST(contains(outcome.err, "AddressSanitizer: heap-buffer-overflow"), outcome.err);
-  outcome = start(mistakes, "thesis", {"null_pointer"});
+  outcome = start(mistakes, {}, {"null_pointer"});
   BOOST_TEST(outcome.exit_code == 1);
   BOOST_TEST(contains(outcome.err, "AddressSanitizer: SEGV on unknown address"), outcome.err);
-  outcome = start(mistakes, "thesis", {"unmapped"});
+  outcome = start(mistakes, {}, {"unmapped"});
   BOOST_TEST(outcome.exit_code == 3);
   BOOST_TEST(contains(outcome.err, "data abort: write to 0x50000000"), outcome.err);
 }
@@ -194,7 +203,8 @@ BOOST_AUTO_TEST_CASE(a_script_by_its_interpreter) {
                   "print(sorted(os.listdir('/sys/class/uio')))\n");
   const kit::Outcome outcome = run({"--linux", python, "--no-report", "script.py"});
   BOOST_TEST(outcome.exit_code == 0, outcome.err);
-  BOOST_TEST(contains(outcome.out, "(256,) 0.0010\n['uio0', 'uio1']\n"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "(256,) 0.0010\n['uio0', 'uio1', 'uio2', 'uio3']\n"),
+             outcome.out);
 }
 
 BOOST_AUTO_TEST_CASE(arguments_and_exit_code) {
@@ -209,6 +219,9 @@ BOOST_AUTO_TEST_CASE(parameters) {
   const kit::Outcome outcome =
       works("gpio", {}, {"--set", "linux.udmabufs=2", "--set", "linux.udmabuf_size=64 KiB"});
   BOOST_TEST(contains(outcome.out, "/dev/udmabuf1 has 65536 bytes"), outcome.out);
+  const kit::Outcome fixed =
+      works("gpio", {}, {"--set", "linux.udmabuf_address=0x18000000", "--set", "linux.udmabufs=2"});
+  BOOST_TEST(contains(fixed.out, "/dev/udmabuf1 has 1048576 bytes at 0x18100000"), fixed.out);
   const auto end = [this] { return result()["program_end"]["time_us"].get<double>(); };
   const double usual = end();
   works("gpio", {}, {"--set", "linux.wake_up=20000 cycles"});

@@ -108,6 +108,12 @@ BOOST_AUTO_TEST_CASE(a_destroyed_stack) {
   fails(13, {"segmentation fault", "0x123456789", where});
 }
 
+BOOST_AUTO_TEST_CASE(low_addresses_of_the_on_chip_memory) {
+  fails(25, {"write to 0x00020000 (On-chip memory at its low addresses (use 0xFFFC_0000 on): not "
+             "modelled)",
+             "write_low_memory()+"});
+}
+
 BOOST_AUTO_TEST_CASE(a_loop_without_hal_call) {
   fails(14, {"no end within 10 ms", "ps.cpu.timeout", "function 'crash'", "spin()+"},
         {"--set", "ps.cpu.timeout=10 ms"});

@@ -141,7 +141,9 @@ void Cpu::report(const vp::Fault& fault) {
             settings_.stack_size.name() + ")";
   } else if (fault.address_known && fault.address <= ~std::uint32_t{0}) {
     const std::string device = device_at(static_cast<std::uint32_t>(fault.address));
-    if (!device.empty()) {
+    if (device.find("not modelled") != std::string::npos) {
+      text += device;
+    } else if (!device.empty()) {
       text += device +
               ", a device address: dereference no pointer to it, use hal_read32() and "
               "hal_write32()";

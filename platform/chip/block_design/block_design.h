@@ -49,6 +49,7 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   vp::SignalBase* unit_end() override { return unit_end_; }
   const std::string& unit_line() const override { return design_.unit.line; }
   std::vector<std::string> used_stubs() const override;
+  const DesignFile& file() const { return design_; }
 
  private:
   struct Way;

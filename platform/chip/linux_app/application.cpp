@@ -58,12 +58,25 @@ std::string find_shim() {
                        ": install markervp whole");
 }
 
-/// Of a file that begins as an ELF file does.
+/// Of a file that begins as an ELF file does. The shim is built for one machine and decodes its
+/// instructions.
 std::string machine_problem(const Elf64_Ehdr& header) {
-  if (header.e_machine == EM_X86_64 && header.e_ident[EI_CLASS] == ELFCLASS64) return {};
-  const bool arm = header.e_machine == EM_ARM || header.e_machine == EM_AARCH64;
-  return std::string("is for another machine") + (arm ? ", ARM" : "") +
-         ": build it for this one, x86-64 (gcc, not a cross compiler)";
+  const bool has_64_bits = header.e_ident[EI_CLASS] == ELFCLASS64;
+  if (header.e_machine == EM_X86_64 && has_64_bits) return {};
+  const std::string advice = ": build it for this computer, x86-64 (gcc, no cross compiler";
+  switch (header.e_machine) {
+    case EM_ARM:
+      return "is for ARM, 32 bits, as the board runs it, and this computer has no such processor" +
+             advice + ")";
+    case EM_AARCH64:
+      return "is for ARM, 64 bits" + advice + ")";
+    case EM_386:
+    case EM_X86_64:
+      return "is of 32 bits (gcc " + std::string(header.e_machine == EM_386 ? "-m32" : "-mx32") +
+             "), and the shim has 64" + advice + ", without that option)";
+    default:
+      return "is for another machine" + advice + ")";
+  }
 }
 
 /// The path of its loader, which also loads the shim; "" if it has no loader.

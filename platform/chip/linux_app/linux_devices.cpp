@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -20,29 +21,130 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using device_tree::Node;
+using device_tree::Property;
+using Uio = LinuxDevices::Uio;
+
 constexpr vp::Range<std::uint32_t> cycles_range{0, 10'000'000};
 constexpr std::uint64_t page = 4096;
+constexpr const char* uio_driver = "generic-uio";  ///< uio_pdrv_genirq.of_id of most projects
 
-/// "pl.axi_dma_0" of "pl.axi_dma_0.s_axi_lite".
-std::string parent_of(const std::string& path) {
-  return path.substr(0, path.rfind('.'));
+/// "dma" of "dma@40400000".
+std::string without_address(const std::string& node) {
+  return node.substr(0, node.find('@'));
+}
+
+std::vector<std::uint32_t> cells_of(const Node& node, const char* property) {
+  std::vector<std::uint32_t> cells;
+  const Property* const found = node.property(property);
+  if (!found) return cells;
+  for (const auto& group : found->groups) {
+    for (const device_tree::Cell& cell : group) cells.push_back(cell.number);
+  }
+  return cells;
+}
+
+/// Lines that lead to the controller of the PS: name and number. Of those behind a controller in
+/// the programmable logic no file counts interrupts here.
+std::vector<std::pair<std::string, std::uint32_t>> lines_of(const Node& node) {
+  constexpr std::uint32_t first_shared = 32, cells_of_gic = 3;
+  std::vector<std::pair<std::string, std::uint32_t>> lines;
+  const Property* const parent = node.property("interrupt-parent");
+  if (!parent || parent->groups.front().front().label != "intc") return lines;
+  const std::vector<std::uint32_t> cells = cells_of(node, "interrupts");
+  const std::vector<std::string>& names = node.property("interrupt-names")->strings;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    lines.emplace_back(names[i], cells.at(cells_of_gic * i + 1) + first_shared);
+  return lines;
+}
+
+/// As uio_pdrv_genirq takes a node: of several interrupts the first.
+Uio uio_of(const Node& node) {
+  Uio uio{without_address(node.name), node.label, node.name, {}};
+  const std::vector<std::uint32_t> place = cells_of(node, "reg");
+  uio.base = place.at(0);
+  uio.size = place.at(1);
+  const auto lines = lines_of(node);
+  if (lines.empty()) return uio;
+  uio.line = lines.front().first;
+  uio.interrupt = lines.front().second;
+  return uio;
+}
+
+std::vector<Uio> usual_uios(const Node& bus) {
+  std::vector<Uio> uios;
+  for (const Node& node : bus.children) uios.push_back(uio_of(node));
+  std::stable_partition(uios.begin(), uios.end(), [](const Uio& one) { return !one.line.empty(); });
+  if (uios.size() > linux_app::most_uio) uios.resize(linux_app::most_uio);
+  return uios;
+}
+
+/// "DEVICE", or "DEVICE.LINE" for another interrupt than its first.
+Uio listed_uio(const std::string& text, const Node& bus, const std::string& parameter) {
+  const std::size_t dot = text.find('.');
+  const std::string device = text.substr(0, dot);
+  std::vector<std::string> names;
+  for (const Node& node : bus.children) {
+    names.push_back(node.label);
+    if (node.label != device) continue;
+    Uio uio = uio_of(node);
+    if (dot == std::string::npos) return uio;
+    std::vector<std::string> lines;
+    for (const auto& [line, interrupt] : lines_of(node)) {
+      lines.push_back(line);
+      uio.interrupt = line == text.substr(dot + 1) ? interrupt : uio.interrupt;
+      if (line == text.substr(dot + 1)) uio.line = line;
+    }
+    if (uio.line == text.substr(dot + 1)) return uio;
+    throw vp::ParameterError(parameter, parameter + ": '" + text + "': " + device +
+                                            (lines.empty() ? " has no interrupt at the PS"
+                                                           : " has " + vp::join(lines, ", ")));
+  }
+  const std::string nearest = vp::nearest_match(device, names);
+  throw vp::ParameterError(parameter,
+                           parameter + ": unknown device '" + device +
+                               "': " + (nearest.empty() ? "" : "did you mean '" + nearest + "'? ") +
+                               "there are " + vp::join(names, ", "));
+}
+
+/// The tree says of each which driver takes it.
+void enter(Node& bus, const Uio& uio) {
+  for (Node& node : bus.children) {
+    if (node.label != uio.device) continue;
+    std::vector<std::string>& drivers = node.properties.front().strings;
+    if (drivers.back() != uio_driver) drivers.emplace_back(uio_driver);
+    if (uio.name != without_address(node.name) && !node.property("linux,uio-name"))
+      node.properties.push_back(device_tree::texts("linux,uio-name", {uio.name}));
+  }
 }
 
 }  // namespace
 
-std::vector<LinuxDevices::Uio> LinuxDevices::uios_of(const facts::HardwareMap& map) {
+std::vector<Uio> LinuxDevices::make_uios(Node& tree, const std::string& list) {
+  const std::string parameter = "linux.uio";
+  Node& bus = *tree.child("amba_pl");
   std::vector<Uio> uios;
-  for (const facts::HardwareMap::Device& device : map.devices) {
-    if (device.way != "m_axi_gp0" || device.registers.empty()) continue;
-    const std::size_t first = uios.size();
-    for (const facts::HardwareMap::Interrupt& interrupt : map.interrupts) {
-      if (parent_of(interrupt.source) != parent_of(device.path)) continue;
-      const std::string line = interrupt.source.substr(interrupt.source.rfind('.') + 1);
-      uios.push_back({device.name + "_" + line, interrupt.id, device.base, device.size});
+  for (std::string text : vp::split(list, ',')) {
+    text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+    if (text.empty()) continue;
+    const std::size_t equals = text.find('=');
+    Uio uio =
+        listed_uio(equals == std::string::npos ? text : text.substr(equals + 1), bus, parameter);
+    if (equals != std::string::npos) uio.name = text.substr(0, equals);
+    for (const Uio& other : uios) {
+      if (!uio.line.empty() && other.interrupt == uio.interrupt)
+        throw vp::ParameterError(parameter, parameter + ": interrupt " +
+                                                std::to_string(uio.interrupt) +
+                                                " is taken twice, and Linux gives it to one");
     }
-    if (uios.size() == first + 1) uios.back().name = device.name;
+    uios.push_back(std::move(uio));
   }
-  if (uios.size() > linux_app::most_uio) uios.resize(linux_app::most_uio);
+  if (uios.size() > linux_app::most_uio)
+    throw vp::ParameterError(parameter, parameter + ": " + std::to_string(uios.size()) +
+                                            " devices: at most " +
+                                            std::to_string(linux_app::most_uio));
+  if (uios.empty()) uios = usual_uios(bus);
+  for (const Uio& uio : uios) enter(bus, uio);
   return uios;
 }
 
@@ -56,7 +158,25 @@ LinuxDevices::LinuxDevices(sc_core::sc_module_name name, Zynq& zynq)
                "buffers /dev/udmabuf0 …"),
       udmabuf_size("udmabuf_size", 1_MiB, vp::Unit::bytes, {4_KiB, 512_MiB}, vp::Source::decision,
                    "of each of them"),
-      uios_(uios_of(hardware_map(zynq))) {
+      udmabuf_address("udmabuf_address", 0, vp::Unit::address, {0, 0x3FFF'F000},
+                      vp::Source::decision,
+                      "of the first of them, for a program that has it as a constant: reserved "
+                      "memory of its device tree; 0: where memory is left"),
+      uio("uio", "", vp::Source::decision,
+          "/dev/uio0 and those that follow, as the board's device tree has them: "
+          "'axi_dma_0, my-gpio=axi_gpio_0, axi_dma_1.s2mm_introut' (a name, a device, one of its "
+          "interrupts); empty: each device of the programmable logic, those with an interrupt "
+          "first"),
+      tree_(hardware_tree(zynq)),
+      uios_(make_uios(tree_, uio)) {
+  if (udmabuf_address == 0) {
+    check_room(zynq);
+  } else {
+    check_address(zynq);
+  }
+}
+
+void LinuxDevices::check_room(Zynq& zynq) const {
   const ps::DmaAllocator& memory = zynq.ps.ddr.dma_memory();
   const std::uint64_t room = memory.end() - memory.first() - memory.used();
   const std::uint64_t size = (udmabuf_size + page - 1) / page * page;
@@ -65,6 +185,26 @@ LinuxDevices::LinuxDevices(sc_core::sc_module_name name, Zynq& zynq)
                        " B (" + udmabufs.name() + ", " + udmabuf_size.name() +
                        ") do not fit into the DMA memory of " + std::to_string(room) +
                        " B: choose smaller ones, or a lower ps.ddr.dma_base");
+}
+
+void LinuxDevices::check_address(Zynq& zynq) const {
+  const ps::DmaAllocator& memory = zynq.ps.ddr.dma_memory();
+  const std::uint64_t first = udmabuf_address;
+  const std::uint64_t end = first + (udmabuf_size + page - 1) / page * page * udmabufs;
+  const auto refuse = [this](const std::string& problem) {
+    throw vp::ParameterError(udmabuf_address.name(),
+                             std::string(udmabuf_address.name()) + ": " + problem);
+  };
+  const auto hex = [](std::uint64_t address) {
+    return vp::hex(static_cast<std::uint32_t>(address));
+  };
+  if (first % page != 0) refuse(hex(first) + " is no multiple of a page, 4096 bytes");
+  if (first < ps::Ddr::base || end > zynq.ps.ddr.end())
+    refuse("buffers up to " + hex(end - 1) + " leave the DDR, " + hex(ps::Ddr::base) + " to " +
+           hex(zynq.ps.ddr.end() - 1));
+  if (first < memory.first() + memory.used() && end > memory.first())
+    refuse("memory up to " + hex(memory.first() + memory.used() - 1) +
+           " is in use: take a higher address, or another ps.ddr.dma_base");
 }
 
 namespace {
@@ -102,6 +242,9 @@ LinuxFolder::LinuxFolder() {
   fs::create_directories(classes / "uio");
   fs::create_directories(classes / "u-dma-buf");
   fs::create_directory_symlink("u-dma-buf", classes / "udmabuf");
+  fs::create_directories(fs::path(path_) / "proc");
+  fs::create_directory_symlink("/sys/firmware/devicetree/base",
+                               fs::path(path_) / "proc/device-tree");
 }
 
 void LinuxFolder::write(const std::string& file, const std::string& text) const {
@@ -114,17 +257,31 @@ void LinuxFolder::write(const std::string& file, const std::string& text) const 
   if (!stream) throw vp::OutputError(path, errno);
 }
 
-// Documentation/driver-api/uio-howto.rst of Linux.
+// Documentation/driver-api/uio-howto.rst of Linux; forms as drivers/uio/uio.c writes them.
 void LinuxFolder::add(const LinuxDevices::Uio& uio, std::size_t number) const {
   const std::string file = "/uio" + std::to_string(number), of = "/sys/class/uio" + file;
   write("/dev" + file, "");
   write(of + "/name", uio.name + "\n");
   write(of + "/version", "devicetree\n");
-  const auto hex = [](std::uint64_t value) { return vp::hex(static_cast<std::uint32_t>(value)); };
-  write(of + "/maps/map0/name", uio.name + "\n");
-  write(of + "/maps/map0/addr", hex(uio.base) + "\n");
-  write(of + "/maps/map0/size", hex(uio.size) + "\n");
-  write(of + "/maps/map0/offset", "0x0\n");
+  const auto hex = [](std::uint64_t value) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "0x%08x\n", static_cast<unsigned>(value));
+    return std::string(digits);
+  };
+  write(of + "/maps/map0/name", uio.node + "\n");
+  write(of + "/maps/map0/addr", hex(uio.base / page * page));
+  write(of + "/maps/map0/size", hex((uio.base % page + uio.size + page - 1) / page * page));
+  char offset[16];
+  std::snprintf(offset, sizeof offset, "0x%x\n", static_cast<unsigned>(uio.base % page));
+  write(of + "/maps/map0/offset", offset);
+  fs::create_directories(path_ + of + "/device");
+  fs::create_directory_symlink("/sys/firmware/devicetree/base/amba_pl/" + uio.node,
+                               path_ + of + "/device/of_node");
+}
+
+void LinuxFolder::add(const device_tree::Node& tree) const {
+  for (const auto& [file, bytes] : device_tree::files(tree))
+    write("/sys/firmware/devicetree/base" + file, bytes);
 }
 
 }  // namespace platform

@@ -6,6 +6,7 @@
 #include <systemc>
 #include <vector>
 
+#include <chip/handoff/device_tree.h>
 #include <chip/linux_app/protocol.h>
 #include <chip/system/zynq.h>
 #include <facts/result.h>
@@ -14,11 +15,11 @@
 
 namespace platform {
 
-/// What a Linux of this platform has for applications: a device tree, so to speak, and what its
-/// calls cost.
+/// What a Linux of this platform has for applications: its device tree, and what its calls cost.
 class LinuxDevices final : public sc_core::sc_module {
  public:
-  /// Throws vp::InputError if the buffers do not fit into the DMA memory.
+  /// Throws vp::InputError if the buffers do not fit into the memory, or the list of UIO names a
+  /// device that is not there.
   LinuxDevices(sc_core::sc_module_name name, Zynq& zynq);
   const char* kind() const override { return "platform::LinuxDevices"; }
 
@@ -26,23 +27,35 @@ class LinuxDevices final : public sc_core::sc_module {
   vp::Parameter<std::uint32_t> wake_up;
   vp::Parameter<std::uint32_t> udmabufs;
   vp::Parameter<std::uint64_t> udmabuf_size;
+  vp::Parameter<std::uint64_t> udmabuf_address;
+  vp::Parameter<std::string> uio;
 
-  /// An interrupt line of a device in the PL, as uio_pdrv_genirq makes a file of it.
+  /// A node of the tree that uio_pdrv_genirq makes a file of.
   struct Uio {
-    std::string name;  ///< "axi_gpio_0", of several lines "axi_dma_0_mm2s_introut"
-    std::uint32_t interrupt;
-    std::uint64_t base, size;  ///< of the device's registers
+    std::string name;    ///< of the file: `linux,uio-name`, else the node's without its address
+    std::string device;  ///< label of the node: "axi_dma_0"
+    std::string node;    ///< "dma@40400000"
+    std::string line;    ///< whose interrupts it counts: "mm2s_introut"; "": none
+    std::uint32_t interrupt = 0;
+    std::uint64_t base = 0, size = 0;  ///< of the device's registers
   };
-  /// By address and interrupt: /dev/uio0 is the first.
-  static std::vector<Uio> uios_of(const facts::HardwareMap& map);
+  /// /dev/uio0 and those that follow, as `list` names them, and enters them into the tree. Of an
+  /// empty list all devices of the programmable logic by address, those with an interrupt first.
+  /// Throws vp::InputError for a device that is not there.
+  static std::vector<Uio> make_uios(device_tree::Node& tree, const std::string& list);
   const std::vector<Uio>& uios() const { return uios_; }
+  const device_tree::Node& tree() const { return tree_; }
 
  private:
+  void check_room(Zynq& zynq) const;
+  void check_address(Zynq& zynq) const;
+
+  device_tree::Node tree_;
   std::vector<Uio> uios_;
 };
 
-/// A folder with /dev and /sys/class as an application sees them. It outlives neither this object
-/// nor this process.
+/// A folder with /dev, /sys/class and the device tree as an application sees them. It outlives
+/// neither this object nor this process.
 class LinuxFolder {
  public:
   /// Throws vp::InputError if the host has no room for it.
@@ -52,6 +65,7 @@ class LinuxFolder {
   /// A file in it, "/dev/mem"; its folders are made.
   void write(const std::string& file, const std::string& text) const;
   void add(const LinuxDevices::Uio& uio, std::size_t number) const;
+  void add(const device_tree::Node& tree) const;
 
  private:
   std::optional<host::ScratchFolder> folder_;

@@ -22,7 +22,6 @@ void print(const std::string& line) {
 }
 
 using linux_app::Device;
-using linux_app::Reply;
 using linux_app::What;
 
 enum Work : std::uint32_t { system_call, wake_up };
@@ -92,6 +91,8 @@ void LinuxRun::connect(Zynq& zynq, CacheContract& caches) {
         " B is allowed: raise 'ulimit -f', or choose a smaller ps.ddr.size");
   zynq_ = &zynq;
   caches_ = &caches;
+  caches.check_owners(
+      [this](std::uint64_t address, std::uint64_t bytes) { return owner_problem(address, bytes); });
   caches.name_calls("write 1 to sync_for_device", "write 1 to sync_for_cpu");
   devices_.emplace("linux", zynq);
   folder_.emplace();
@@ -138,21 +139,9 @@ void LinuxRun::boot() {
   timer_hz_ = zynq_->ps.cpu_clk.clk.frequency_hz() / drivers::GlobalTimer::cycles_per_count;
   gic_.connect(timer_interrupt, drivers::Trigger::rising_edge, &on_alarm, this);
   hal_interrupt_enable(true);
-  const std::vector<LinuxDevices::Uio>& uios = devices_->uios();
-  uios_.resize(uios.size());
-  for (std::size_t i = 0; i < uios.size(); ++i) {
-    folder_->add(uios[i], i);
-    uios_[i] = {uios[i].interrupt, true, 0};
-    gic_.connect(uios[i].interrupt, drivers::Trigger::level_high, &on_interrupt, &uios_[i]);
-    print("linux: /dev/uio" + std::to_string(i) + " is " + uios[i].name + ", interrupt " +
-          std::to_string(uios[i].interrupt) + ", at " +
-          vp::hex(static_cast<std::uint32_t>(uios[i].base)));
-  }
+  make_uios();
   make_buffers();
-  for (std::size_t i = 0; i < buffers_.size(); ++i) {
-    print("linux: /dev/udmabuf" + std::to_string(i) + " has " + std::to_string(buffers_[i].size) +
-          " bytes at " + vp::hex(static_cast<std::uint32_t>(buffers_[i].base)));
-  }
+  folder_->add(devices_->tree());
   // On the platform's side: the processes that guard it are copies of this one, where an exit is
   // not the program's.
   ps::Cpu::running("a Linux application").guarded([&] {
@@ -160,16 +149,41 @@ void LinuxRun::boot() {
   });
 }
 
+void LinuxRun::make_uios() {
+  const std::vector<LinuxDevices::Uio>& uios = devices_->uios();
+  uios_.resize(uios.size());
+  for (std::size_t i = 0; i < uios.size(); ++i) {
+    folder_->add(uios[i], i);
+    uios_[i].interrupt = uios[i].interrupt;
+    uios_[i].enabled = true;
+    if (uios[i].interrupt != 0)
+      gic_.connect(uios[i].interrupt, drivers::Trigger::level_high, &on_interrupt, &uios_[i]);
+    print("linux: /dev/uio" + std::to_string(i) + " is " + uios[i].device +
+          (uios[i].interrupt != 0 ? ", interrupt " + std::to_string(uios[i].interrupt)
+                                  : ", no interrupt") +
+          ", at " + vp::hex(static_cast<std::uint32_t>(uios[i].base)));
+  }
+}
+
 void LinuxRun::make_buffers() {
+  const auto size = static_cast<std::size_t>(devices_->udmabuf_size);
+  std::uint64_t fixed = devices_->udmabuf_address;
   for (std::size_t i = 0; i < devices_->udmabufs; ++i) {
-    const hal_dma_buffer memory =
-        hal_dma_allocate(static_cast<std::size_t>(devices_->udmabuf_size), buffer_alignment);
-    if (memory.data == nullptr) fail("no memory is left for /dev/udmabuf" + std::to_string(i));
     Buffer buffer;
-    buffer.base = memory.bus_address;
-    buffer.size = buffer.sync_size = memory.size;
+    if (fixed != 0) {
+      buffer.base = fixed;
+      fixed += (size + buffer_alignment - 1) / buffer_alignment * buffer_alignment;
+    } else {
+      const hal_dma_buffer memory = hal_dma_allocate(size, buffer_alignment);
+      if (memory.data == nullptr) fail("no memory is left for /dev/udmabuf" + std::to_string(i));
+      buffer.base = memory.bus_address;
+    }
+    buffer.size = buffer.sync_size = size;
     show(buffer, i);
     buffers_.push_back(buffer);
+    memory_.emplace_back(buffer.base, buffer.base + size);
+    print("linux: /dev/udmabuf" + std::to_string(i) + " has " + std::to_string(buffer.size) +
+          " bytes at " + vp::hex(static_cast<std::uint32_t>(buffer.base)));
   }
 }
 
@@ -243,10 +257,12 @@ void LinuxRun::obey(const Asked& asked, Reply& reply) {
     case What::map:
       return map(request);
     case What::interrupt:
-      reply.a = await_interrupt(request.a, static_cast<std::uint32_t>(request.b), request.c != 0);
+      if (has_interrupt(request.a, reply))
+        reply.a = await_interrupt(request.a, static_cast<std::uint32_t>(request.b), request.c != 0);
       return;
     case What::control:
-      return control(uios_.at(request.a), request.b != 0);
+      if (has_interrupt(request.a, reply)) control(uios_.at(request.a), request.b != 0);
+      return;
     case What::sleep:
       if (request.a != 0) sleep_until(timer_.now() + counts_of(request.a));
       return;
@@ -280,18 +296,28 @@ void LinuxRun::open(const Request& request, Reply& reply) {
     const LinuxDevices::Uio& uio = devices_->uios().at(request.b);
     reply.a = uio.base;
     reply.b = uio.size;
+    reply.error = uio.interrupt != 0 ? 0 : EIO;
   } else if (static_cast<Device>(request.a) == Device::buffer) {
     reply.a = buffers_.at(request.b).base;
     reply.b = buffers_.at(request.b).size;
   }
 }
 
+void LinuxRun::note_access(std::uint32_t address) {
+  for (std::size_t i = 0; i < uios_.size(); ++i) {
+    const LinuxDevices::Uio& uio = devices_->uios()[i];
+    if (address >= uio.base && address - uio.base < uio.size) uios_[i].touched = true;
+  }
+}
+
 std::uint32_t LinuxRun::read(std::uint32_t address, std::uint32_t size) {
+  note_access(address);
   const std::uint32_t word = hal_read32(address & ~3u) >> (address & 3) * 8;
   return size == 4 ? word : word & ((1u << size * 8) - 1);
 }
 
 void LinuxRun::write(std::uint32_t address, std::uint32_t value, std::uint32_t size) {
+  note_access(address);
   if (size == 4) return hal_write32(address, value);
   if (!std::exchange(warned_of_parts_, true)) {
     hal_warn(("a write of " + std::to_string(size) + (size == 1 ? " byte" : " bytes") + " to " +
@@ -305,8 +331,18 @@ void LinuxRun::write(std::uint32_t address, std::uint32_t value, std::uint32_t s
   hal_write32(address & ~3u, (before & ~mask) | (value << shift & mask));
 }
 
-// What the caches do not hold needs no maintenance.
+// What the caches do not hold needs no maintenance. What is mapped of /dev/mem is the application's
+// to keep free of Linux.
 void LinuxRun::map(const Request& request) {
+  const std::uint64_t end = request.a + request.b;
+  if ((request.c & linux_app::of_buffer) == 0 && !owner_problem(request.a, request.b).empty()) {
+    memory_.emplace_back(request.a, end);
+    print(
+        "linux: " + std::to_string(request.b) + " bytes of the DDR at " +
+        vp::hex(static_cast<std::uint32_t>(request.a)) +
+        " are mapped by /dev/mem: on the board keep them free of Linux, by reserved-memory in the "
+        "device tree or mem= of the kernel");
+  }
   bool cached = (request.c & linux_app::o_sync) == 0;
   if ((request.c & linux_app::of_buffer) != 0) {
     const std::uint64_t mode = buffers_.at(request.c >> 8).sync_mode;
@@ -315,9 +351,42 @@ void LinuxRun::map(const Request& request) {
   if (!cached) caches_->placed(request.a, std::min(request.b, zynq_->ps.ddr.end() - request.a));
 }
 
+/// What is wrong with a device's access there; "" if the application owns that memory.
+std::string LinuxRun::owner_problem(std::uint64_t address, std::uint64_t bytes) const {
+  for (const auto& [first, end] : memory_)
+    if (first <= address && address + bytes <= end) return {};
+  const std::string place = vp::hex(static_cast<std::uint32_t>(address));
+  std::string owned;
+  for (std::size_t i = 0; i < buffers_.size(); ++i) {
+    owned += "/dev/udmabuf" + std::to_string(i) + " has " + std::to_string(buffers_[i].size) +
+             " bytes at " + vp::hex(static_cast<std::uint32_t>(buffers_[i].base)) + "; ";
+  }
+  return place +
+         ", which is no memory of the application's: on the board Linux has its own data "
+         "there. " +
+         owned +
+         "take the address that phys_addr says, or, if the program has it as a constant, "
+         "set linux.udmabuf_address=" +
+         place + ", or map that memory by /dev/mem";
+}
+
+/// As drivers/uio/uio.c answers for a device without one.
+bool LinuxRun::has_interrupt(std::size_t number, Reply& reply) {
+  if (uios_.at(number).interrupt != 0) return true;
+  reply.error = EIO;
+  const LinuxDevices::Uio& uio = devices_->uios()[number];
+  hal_warn(("read() and write() of /dev/uio" + std::to_string(number) + " give EIO: " + uio.device +
+            " has no interrupt at the PS")
+               .c_str());
+  return false;
+}
+
 // As uio_pdrv_genirq: an interrupt masks itself, and its handler unmasks it again.
 void LinuxRun::on_interrupt(void* context) {
   Uio& uio = *static_cast<Uio*>(context);
+  if (!uio.touched)
+    active->warn_of_uncleared(static_cast<std::size_t>(&uio - active->uios_.data()));
+  uio.touched = false;
   ++uio.count;
   uio.enabled = false;
   hal_write32(distributor(gic::ICDICER(uio.interrupt / 32)), 1u << uio.interrupt % 32);
@@ -350,6 +419,17 @@ void LinuxRun::warn_of_masked(std::size_t number) const {
        ", which is masked: each one masks it, and so does writing 0; write 1 (a uint32_t) to " +
        file + " before it waits")
           .c_str());
+}
+
+void LinuxRun::warn_of_uncleared(std::size_t number) {
+  if (std::exchange(warned_of_uncleared_, true)) return;
+  const std::string file = "/dev/uio" + std::to_string(number);
+  const std::string device = devices_->uios()[number].device;
+  hal_warn((file + " interrupts again, and the application has not accessed " + device +
+            " since its last interrupt: the line is still high, so that read() returns at once, "
+            "whatever the device does; clear the interrupt in the registers of " +
+            device + " before 1 is written to " + file)
+               .c_str());
 }
 
 void LinuxRun::on_alarm(void* context) {

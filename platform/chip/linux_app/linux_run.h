@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <chip/linux_app/application.h>
@@ -42,9 +43,10 @@ class LinuxRun {
 
  private:
   struct Uio {
-    std::uint32_t interrupt = 0;
+    std::uint32_t interrupt = 0;  ///< 0: it has none
     bool enabled = false;
     std::uint32_t count = 0;
+    bool touched = true;  ///< the application accessed the device since the last one
   };
   /// A u-dma-buf: its attributes are those of the driver.
   struct Buffer {
@@ -53,20 +55,26 @@ class LinuxRun {
   };
   using Asked = LinuxApplication::Asked;
   using Request = linux_app::Request;
+  using Reply = linux_app::Reply;
 
   int serve_to_end();
   void boot();
+  void make_uios();
   void make_buffers();
   int end();
   void serve(const Asked& asked);
-  void obey(const Asked& asked, linux_app::Reply& reply);
-  void open(const Request& request, linux_app::Reply& reply);
+  void obey(const Asked& asked, Reply& reply);
+  void open(const Request& request, Reply& reply);
   std::uint32_t read(std::uint32_t address, std::uint32_t size);
   void write(std::uint32_t address, std::uint32_t value, std::uint32_t size);
   void map(const Request& request);
+  std::string owner_problem(std::uint64_t address, std::uint64_t bytes) const;
+  void note_access(std::uint32_t address);
+  bool has_interrupt(std::size_t number, Reply& reply);
   void control(Uio& uio, bool enable);
   std::uint32_t await_interrupt(std::size_t number, std::uint32_t seen, bool waits);
   void warn_of_masked(std::size_t number) const;
+  void warn_of_uncleared(std::size_t number);
   int store(Buffer& buffer, std::size_t number, const std::string& text);
   void show(const Buffer& buffer, std::size_t number) const;
   void show(std::size_t number, const std::string& attribute, const std::string& value) const;
@@ -99,8 +107,11 @@ class LinuxRun {
   volatile bool alarm_ = false;
   std::vector<Uio> uios_;
   std::vector<Buffer> buffers_;
-  bool connected_ = false;  ///< the shim has said hello
+  /// What the application may let devices access: its buffers, and what it maps of /dev/mem.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> memory_;  ///< [first, end)
+  bool connected_ = false;                                       ///< the shim has said hello
   bool warned_of_parts_ = false;
+  bool warned_of_uncleared_ = false;
 
   bool waits_ = false;                ///< the application, for an answer
   std::optional<std::string> place_;  ///< where it waits, once it was asked, or said so

@@ -18,7 +18,7 @@ constexpr const char* folder_variable = "MARKERVP_LINUX";
 /// Sent to an application that takes too long: it tells where it is, as of any signal that ends it.
 constexpr int out_of_time = SIGXCPU;
 
-constexpr unsigned most_uio = 16;  ///< as many as there are lines IRQ_F2P
+constexpr unsigned most_uio = 32;
 constexpr std::uint64_t forever = ~std::uint64_t{0};
 constexpr std::uint64_t no_address = ~std::uint64_t{0};
 
@@ -27,7 +27,8 @@ enum class Device : std::uint32_t { memory, uio, buffer };
 
 enum class What : std::uint32_t {
   hello,      ///< first of all; `a`, `b`: first byte of the DDR and one past its last
-  open,       ///< device `a`, its number `b`; `a`: its address, `b`: its bytes
+  open,       ///< device `a`, its number `b`; `a`: its address, `b`: its bytes; EIO: of a uio
+              ///< without interrupt, whose file is there all the same
   map,        ///< memory at `a`, `b` bytes, `c`: MapFlags: the application sees it from now on
   read,       ///< `size` bytes at `a`; `a`: what was there
   write,      ///< `size` bytes at `a`: `b`

@@ -34,7 +34,8 @@ std::string capitals(std::string text) {
   return text;
 }
 
-/// The lines of a module that interrupt controllers of the PL take.
+}  // namespace
+
 std::vector<xparameters::FabricInterrupt> fabric_interrupts(Zynq& zynq,
                                                             const sc_core::sc_object& module) {
   std::vector<xparameters::FabricInterrupt> list;
@@ -48,6 +49,8 @@ std::vector<xparameters::FabricInterrupt> fabric_interrupts(Zynq& zynq,
   }
   return list;
 }
+
+namespace {
 
 /// A device with its lines to the interrupt controllers.
 Device at_place(Zynq& zynq, const HardwareMap& map, const HardwareMap::Device& place,

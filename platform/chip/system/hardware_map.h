@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include <chip/handoff/device_tree.h>
 #include <chip/system/xparameters.h>
 #include <chip/system/zynq.h>
 #include <facts/result.h>
@@ -11,6 +13,14 @@ namespace platform {
 
 /// The map of the platform as it is built now.
 facts::HardwareMap hardware_map(Zynq& zynq);
+
+/// The device tree that Linux would have of the platform as it is built now. The devices of the
+/// programmable logic are below `amba_pl`.
+device_tree::Node hardware_tree(Zynq& zynq);
+
+/// The lines of a module that interrupt controllers of the PL take.
+std::vector<xparameters::FabricInterrupt> fabric_interrupts(Zynq& zynq,
+                                                            const sc_core::sc_object& module);
 
 /// What a register holds: "axi_dma_0.MM2S_DMASR: 0x00000002 (Idle 1, all else 0)"; "" where no
 /// register is.

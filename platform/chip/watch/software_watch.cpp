@@ -35,11 +35,22 @@ void CacheContract::Watch::after(vp::MmLink& link, tlm::tlm_generic_payload& pay
 
 void CacheContract::Watch::direct(vp::MmLink&, tlm::tlm_command command, std::uint64_t address,
                                   std::uint64_t bytes) {
+  if (contract_.owner_problem_) contract_.check_owner(command, address, bytes);
   if (command == tlm::TLM_READ_COMMAND) {
     contract_.device_reads(address, bytes);
   } else {
     contract_.device_wrote(address, bytes);
   }
+}
+
+void CacheContract::check_owner(tlm::tlm_command command, std::uint64_t address,
+                                std::uint64_t bytes) {
+  const std::string problem = owner_problem_(address, bytes);
+  if (problem.empty()) return;
+  owner_problem_ = nullptr;
+  vp::warn(
+      zynq_.ps.cpu, "/markervp/cpu/no_owner",
+      std::string("a DMA ") + (command == tlm::TLM_READ_COMMAND ? "reads " : "writes ") + problem);
 }
 
 CacheContract::CacheContract(Zynq& zynq)

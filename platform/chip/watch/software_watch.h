@@ -43,6 +43,12 @@ class CacheContract {
   /// looked at, which would cost a tenth of the speed with inputs.
   void placed(std::uint64_t address, std::uint64_t bytes) { mark(address, bytes, current | given); }
 
+  /// Asked of each access of a device to the DDR until it finds one: what is wrong with its place,
+  /// as the end of a sentence; "" if nothing is.
+  void check_owners(std::function<std::string(std::uint64_t address, std::uint64_t bytes)> check) {
+    owner_problem_ = std::move(check);
+  }
+
  private:
   /// What is known of a cache line.
   enum Mark : unsigned char {
@@ -68,6 +74,7 @@ class CacheContract {
   };
 
   void leave_alone();
+  void check_owner(tlm::tlm_command command, std::uint64_t address, std::uint64_t bytes);
   void check_transfers();
   void take(ps::Cpu::CacheCall call, std::uint64_t address, std::uint64_t bytes);
   template <class Action>
@@ -97,6 +104,7 @@ class CacheContract {
   ps::LineGuard guard_;
   bool off_ = false;          ///< the data caches are
   bool all_current_ = false;  ///< all of the caches was flushed once: no line was never
+  std::function<std::string(std::uint64_t, std::uint64_t)> owner_problem_;
   std::string flush_call_ = "call hal_cache_flush()";
   std::string invalidate_call_ = "call hal_cache_invalidate()";
   bool warned_of_read_ = false;

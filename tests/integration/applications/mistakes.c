@@ -48,9 +48,9 @@ static void wide(void) {
 }
 
 static void vector(void) {
-  char copy[64];
-  void* (*volatile function)(void*, const void*, size_t) = memcpy;
-  function(copy, (const void*)gpio(), sizeof copy);
+  typedef int words __attribute__((vector_size(16)));
+  volatile words* const registers = (volatile words*)gpio();
+  volatile words copy = *registers;
   if (copy[0] == 7) puts("seven");
 }
 
@@ -111,6 +111,25 @@ static void masked(void) {
   if (read(file, &off, sizeof off) != sizeof off) exit(13);
 }
 
+static void no_interrupt(void) {
+  uint32_t count = 0;
+  const int file = open("/dev/uio2", O_RDWR);
+  struct pollfd wanted = {file, POLLIN, 0};
+  if (poll(&wanted, 1, -1) != 1) exit(12);
+  if (read(file, &count, sizeof count) != -1 || errno != EIO) exit(13);
+  if (write(file, &count, sizeof count) != -1 || errno != EIO) exit(14);
+}
+
+/* A buffer that the program has as a constant, and the board's tree would reserve. */
+static void constant_address(void) {
+  volatile uint32_t* const dma = map_at(0x40400000, MAP_SHARED);
+  gpio()[DATA] = 0x10;
+  dma[0] = 1;
+  dma[6] = 0x18000000;
+  dma[10] = 128;
+  usleep(100);
+}
+
 static void* touch(void* registers) {
   ((volatile uint32_t*)registers)[DATA] = 1;
   return NULL;
@@ -161,6 +180,23 @@ static void unflushed(void) {
   dma[6] = (uint32_t)strtoul(text, NULL, 0);
   dma[10] = 128;
   usleep(100);
+}
+
+/* The interrupt that a level keeps up is there again as soon as it is unmasked. */
+static void uncleared(void) {
+  uint32_t count = 0, on = 1;
+  const int file = open("/dev/uio0", O_RDWR);
+  volatile uint32_t* dma = map_at(0x40400000, MAP_SHARED);
+  map_at(0x18000000, MAP_SHARED);
+  gpio()[DATA] = 0x10;
+  dma[0] = 0x1001;
+  dma[6] = 0x18000000;
+  dma[10] = 128;
+  for (int i = 0; i < 2; ++i) {
+    if (read(file, &count, sizeof count) != sizeof count) exit(12);
+    if (write(file, &on, sizeof on) != sizeof on) exit(13);
+  }
+  if (count != 2) exit(14);
 }
 
 static void beyond(void) {
@@ -253,6 +289,8 @@ int main(int count, char** words) {
                   {"sleeping", sleeping},
                   {"waiting", waiting},
                   {"masked", masked},
+                  {"no_interrupt", no_interrupt},
+                  {"constant_address", constant_address},
                   {"threads", threads},
                   {"forks", forks},
                   {"starts", starts},
@@ -263,6 +301,7 @@ int main(int count, char** words) {
                   {"expands", expands},
                   {"reopens", reopens},
                   {"unflushed", unflushed},
+                  {"uncleared", uncleared},
                   {"beyond", beyond},
                   {"no_device", no_device},
                   {"beyond_a_map", beyond_a_map},

@@ -117,9 +117,30 @@ static int accesses(void) {
   static struct words memory;
   volatile struct words* registers =
       (volatile struct words*)map(open_file("/dev/mem", O_RDWR | O_SYNC), 4096, OCM);
+  EXPECT((uintptr_t)registers >> 31 == 0); /* programs for 32 bits keep it in an int */
   const uint64_t expected = exercise(&memory), got = exercise(registers);
   EXPECT(got == expected);
   EXPECT(registers->word == memory.word && registers->part.half[0] == memory.part.half[0]);
+  return 0;
+}
+
+/* Of the C library, whose own instructions are as wide as the computer has them. */
+static int copies(volatile uint32_t* registers) {
+  void* (*volatile copy)(void*, const void*, size_t) = memcpy;
+  void* (*volatile move)(void*, const void*, size_t) = memmove;
+  void* (*volatile fill)(void*, int, size_t) = memset;
+  uint32_t from[40], to[41] = {0};
+  for (uint32_t i = 0; i < 40; ++i) from[i] = 0x01020304 * i;
+  EXPECT(copy((void*)registers, from, sizeof from) == (void*)registers);
+  for (int i = 0; i < 40; ++i) EXPECT(registers[i] == from[i]);
+  EXPECT(copy((char*)to + 1, (void*)registers, 157) == (char*)to + 1);
+  EXPECT(memcmp((char*)to + 1, from, 157) == 0 && ((char*)to)[158] == 0);
+  move((void*)(registers + 1), (void*)registers, 12);
+  EXPECT(registers[1] == from[0] && registers[2] == from[1] && registers[3] == from[2]);
+  move((void*)registers, (void*)(registers + 1), 12);
+  EXPECT(registers[0] == from[0] && registers[1] == from[1] && registers[2] == from[2]);
+  fill((void*)registers, 0xA5, 16);
+  EXPECT(registers[3] == 0xA5A5A5A5 && registers[4] == from[4]);
   return 0;
 }
 
@@ -141,7 +162,7 @@ static int strings(void) {
   count = 8;
   __asm__ volatile("rep stosl" : "+D"(target), "+c"(count) : "a"(7) : "memory");
   for (int i = 0; i < 8; ++i) EXPECT(registers[i] == 7);
-  return 0;
+  return copies(registers);
 }
 
 static void write_text(const char* path, const char* text) {
@@ -158,6 +179,37 @@ static unsigned long number_in(const char* path) {
   return strtoul(text, NULL, 0);
 }
 
+/* The first of a file, up to a zero. */
+static const char* text_in(const char* path) {
+  static char text[64];
+  FILE* file = fopen(path, "r");
+  EXPECT(file != NULL);
+  text[fread(text, 1, sizeof text - 1, file)] = '\0';
+  fclose(file);
+  return text;
+}
+
+/* The same as programs look for it in the device tree. */
+static int device_tree(void) {
+  const char* const dma = "/sys/firmware/devicetree/base/amba_pl/dma@40400000";
+  char path[128], text[256] = "";
+  EXPECT(strcmp(text_in("/proc/device-tree/compatible"), "xlnx,zynq-7000") == 0);
+  EXPECT(realpath("/proc/device-tree/amba_pl/dma@40400000", path) && strcmp(path, dma) == 0);
+  EXPECT(realpath("/sys/class/uio/uio1/device/of_node", path) && strcmp(path, dma) == 0);
+  EXPECT(chdir(dma) == 0);
+  const int file = open_file("compatible", O_RDONLY);
+  const char expected[] = "xlnx,axi-dma-7.1\0xlnx,axi-dma-1.00.a\0generic-uio";
+  EXPECT(read(file, text, sizeof text) == sizeof expected);
+  EXPECT(memcmp(text, expected, sizeof expected) == 0);
+  close(file);
+  const int reg = open_file("reg", O_RDONLY);
+  EXPECT(read(reg, text, sizeof text) == 8 && memcmp(text, "\x40\x40\0\0\0\1\0\0", 8) == 0);
+  close(reg);
+  EXPECT(strcmp(text_in("../gpio@41230000/linux,uio-name"), "my-buttons") == 0);
+  EXPECT(access("/proc/device-tree/nothing", F_OK) == -1 && errno == ENOENT);
+  return chdir("/");
+}
+
 /* What is there to be found, as programs look for it. */
 static int tree(void) {
   DIR* folder = opendir("/sys/class/uio");
@@ -172,8 +224,11 @@ static int tree(void) {
   EXPECT(open("/dev/udmabuf1", O_RDWR) == -1 && errno == ENOENT);
   char text[64] = "";
   const int name = open_file("/sys/class/uio/uio1/name", O_RDONLY);
-  EXPECT(read(name, text, sizeof text) > 0 && strcmp(text, "axi_dma_0_s2mm_introut\n") == 0);
+  EXPECT(read(name, text, sizeof text) > 0 && strcmp(text, "dma\n") == 0);
   close(name);
+  EXPECT(strcmp(text_in("/sys/class/uio/uio2/name"), "my-buttons\n") == 0);
+  EXPECT(strcmp(text_in("/sys/class/uio/uio1/maps/map0/name"), "dma@40400000\n") == 0);
+  EXPECT(strcmp(text_in("/sys/class/uio/uio1/maps/map0/addr"), "0x40400000\n") == 0);
   EXPECT(number_in("/sys/class/uio/uio1/maps/map0/addr") == DMA);
   EXPECT(number_in("/sys/class/uio/uio1/maps/map0/size") == 0x10000);
   EXPECT(number_in("/sys/class/uio/uio1/maps/map0/offset") == 0);
@@ -460,6 +515,7 @@ int main(int count, char** words) {
   if (strcmp(what, "accesses") == 0) return accesses();
   if (strcmp(what, "strings") == 0) return strings();
   if (strcmp(what, "tree") == 0) return tree();
+  if (strcmp(what, "device_tree") == 0) return device_tree();
   if (strcmp(what, "cached_loop") == 0) return cached_loop();
   if (strcmp(what, "stream_loop") == 0) return stream_loop();
   if (strcmp(what, "waiting") == 0) return waiting();

@@ -149,6 +149,11 @@ __attribute__((noinline)) void read_unmapped() {
   hal_read32(0x5000'0000);
 }
 
+/// The on-chip memory, where OCM_CFG could have it.
+__attribute__((noinline)) void write_low_memory() {
+  *reinterpret_cast<volatile int*>(std::uintptr_t{0x2'0000}) = 1;
+}
+
 void (*const ways[])() = {dereference_device,
                           write_null,
                           [] { sink = recurse(0); },
@@ -173,7 +178,8 @@ void (*const ways[])() = {dereference_device,
                           end_thread,
                           jump_out_of_handler,
                           jump,
-                          change_folder};
+                          change_folder,
+                          write_low_memory};
 constexpr int last_way = sizeof ways / sizeof ways[0] - 1;
 
 const hal_option_info options[] = {{"way", "", 0, 0, last_way, "how the program crashes"}};

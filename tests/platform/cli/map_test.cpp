@@ -87,6 +87,19 @@ BOOST_AUTO_TEST_CASE(all_registers) {
   BOOST_TEST(contains(out, "29  ps.private_timer.irq"));
 }
 
+BOOST_AUTO_TEST_CASE(the_device_tree_is_printed_or_written) {
+  BOOST_TEST(run({"map", "--device-tree"}) == 0);
+  const std::string tree = out;
+  BOOST_TEST(tree.rfind("/dts-v1/;\n\n/ {\n", 0) == 0);
+  BOOST_TEST(contains(tree, "\taxi_dma_1: dma@40410000 {\n"));
+  BOOST_TEST(contains(tree, "\t\t\tinterrupts = <0 30 4>;\n"));
+  BOOST_TEST(contains(tree, "\tuart1: serial@e0001000 {\n"));
+  BOOST_TEST(!contains(tree, "c-addr-width"));
+  BOOST_TEST(run({"map", "--device-tree", folder / "thesis.dts"}) == 0);
+  BOOST_TEST(kit::read_file(folder / "thesis.dts") == tree);
+  BOOST_TEST(run({"map", "--device-tree", folder / "nowhere/thesis.dts"}) == 2);
+}
+
 BOOST_AUTO_TEST_CASE(bits_of_a_field) {
   using platform::cli::bits_text;
   BOOST_TEST(bits_text(1) == "0");

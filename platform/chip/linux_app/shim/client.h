@@ -102,11 +102,17 @@ dev_t device_open_at(int descriptor);
 void resume_interrupts(const std::uint32_t* interrupts);
 
 // ---- registers.cpp
+/// mmap() of a device: below 2 GiB if the application leaves the place to the system, and at the
+/// same place in each run. On the board a pointer has 32 bits, and programs keep it in an int.
+void* map_low(void* address, std::size_t length, int protection, int flags, int file,
+              std::int64_t offset);
 /// mmap() of device registers: pages without access rights. Each access of the application faults,
 /// is made by the platform, and the application continues: the instruction is stepped over with the
 /// word in the page, so that it does what it always does.
 void* map_registers(void* address, std::size_t length, int protection, int flags,
                     std::uint32_t bus_address);
+/// An address of device registers.
+bool are_registers(const void* address);
 /// What the application may do with them. False: there are none.
 bool protect_registers(void* address, std::size_t length, int protection);
 /// They are registers no more.

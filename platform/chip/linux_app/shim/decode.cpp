@@ -62,11 +62,11 @@ MemoryAccess unsupported(const char* why) {
 }
 
 constexpr const char* vector_move =
-    "a vector instruction, several words at once: copy word by word, through a pointer to volatile "
-    "uint32_t, and not with memcpy()";
+    "a vector instruction, several words at once, as compilers make them of loops: access words, "
+    "through a pointer to volatile uint32_t, or with memcpy()";
 constexpr const char* wide =
     "8 bytes at once: 'unsigned long' has 8 bytes here and 4 on the chip; access words, through a "
-    "pointer to volatile uint32_t, and not with memcpy()";
+    "pointer to volatile uint32_t";
 constexpr const char* atomic = "an atomic operation, which device registers do not have";
 constexpr const char* unknown = "an instruction that is not known here";
 

@@ -41,8 +41,9 @@ int open_device(const Path& path, int flags) {
   const Device device = is_memory ? Device::memory : is_uio ? Device::uio : Device::buffer;
   const Reply reply = ask(What::open, static_cast<std::uint64_t>(device), number);
   // No regular file: some look at that before they map it.
-  const int descriptor = ::eventfd(0, ((flags & O_NONBLOCK) != 0 ? EFD_NONBLOCK : 0) |
-                                          ((flags & O_CLOEXEC) != 0 ? EFD_CLOEXEC : 0));
+  const int descriptor =
+      ::eventfd(reply.error != 0, ((flags & O_NONBLOCK) != 0 ? EFD_NONBLOCK : 0) |
+                                      ((flags & O_CLOEXEC) != 0 ? EFD_CLOEXEC : 0));
   if (descriptor < 0) return descriptor;
   using Kind = Open::Kind;
   Open& open = new_open(is_memory ? Kind::memory : is_uio ? Kind::uio : Kind::buffer);
@@ -53,6 +54,7 @@ int open_device(const Path& path, int flags) {
   if (is_uio) {
     open.event = copy_out_of_the_way(descriptor);
     open.seen = interrupts[open.number];
+    open.silent = reply.error != 0;
   }
   give(descriptor, open);
   return descriptor;
@@ -120,6 +122,7 @@ FILE* open_stream(const char* path, const char* mode, Plain plain) {
 }
 
 void set_event(Open& open) {
+  if (open.silent) return;
   const bool set = open.seen != interrupts[open.number];
   if (set == open.is_set) return;
   std::uint64_t count = 1;
@@ -131,8 +134,9 @@ void set_event(Open& open) {
 ssize_t read_uio(int descriptor, Open& open, void* buffer, std::size_t size) {
   if (size != sizeof open.seen) return refuse(EINVAL);
   const bool waits = (REAL(fcntl)(descriptor, F_GETFL) & O_NONBLOCK) == 0;
-  const auto count =
-      static_cast<std::uint32_t>(ask(What::interrupt, open.number, open.seen, waits).a);
+  const Reply reply = ask(What::interrupt, open.number, open.seen, waits);
+  if (reply.error != 0) return refuse(reply.error);
+  const auto count = static_cast<std::uint32_t>(reply.a);
   if (count == open.seen) return refuse(EAGAIN);
   open.seen = count;
   set_event(open);
@@ -150,8 +154,8 @@ ssize_t write_uio(const Open& open, const void* buffer, std::size_t size) {
 
 void* map_memory(void* address, std::size_t length, int protection, int flags, std::uint64_t bus,
                  std::uint64_t how) {
-  void* const got = REAL(mmap)(address, length, protection, flags, memory_file(),
-                               static_cast<off_t>(bus - memory_first));
+  void* const got = map_low(address, length, protection, flags, memory_file(),
+                            static_cast<off_t>(bus - memory_first));
   if (got != MAP_FAILED) ask(What::map, bus, length, how);
   return got;
 }
@@ -166,8 +170,9 @@ void* map(const Open& open, void* address, std::size_t length, int protection, i
                         offset <= (open.kind == Kind::uio ? 0 : size - pages);
   if (!is_there) {
     warn_of_invalid(
-        "mmap() of %zu bytes at offset 0x%llX: of this file 0x%llX can be mapped, by pages", length,
-        static_cast<unsigned long long>(offset), static_cast<unsigned long long>(size));
+        "mmap() of %zu bytes at offset 0x%llX: of this file 0x%llX can be mapped, by pages%s",
+        length, static_cast<unsigned long long>(offset), static_cast<unsigned long long>(size),
+        open.kind == Kind::buffer ? "; linux.udmabuf_size makes it larger" : "");
     return MAP_FAILED;
   }
   const std::uint64_t how = open.sync ? std::uint64_t{linux_app::o_sync} : 0;

@@ -17,6 +17,7 @@ struct Open {
   // Of an uio: an event that is set as long as there are interrupts that were not read.
   int event;
   bool is_set;
+  bool silent;         ///< it has no interrupt: poll() finds an error at once, as with uio.c
   std::uint32_t seen;  ///< interrupts
   // Of an attribute: a file without a name, which takes what is written.
   char name[NAME_MAX + 1];

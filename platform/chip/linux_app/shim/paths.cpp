@@ -35,7 +35,8 @@ bool is_in(const char* path, const char* folder) {
 /// What the folder has.
 bool is_led(const char* name) {
   return device_at(name) != 0 || is_in(name, "/sys/class/uio") ||
-         is_in(name, "/sys/class/u-dma-buf") || is_in(name, "/sys/class/udmabuf");
+         is_in(name, "/sys/class/u-dma-buf") || is_in(name, "/sys/class/udmabuf") ||
+         is_in(name, "/sys/firmware/devicetree") || is_in(name, "/proc/device-tree");
 }
 
 /// What the folder has for those that list it.

@@ -227,6 +227,22 @@ void catch_faults() {
   REAL(sigaction)(linux_app::out_of_time, &action, nullptr);
 }
 
+void* map_low(void* address, std::size_t length, int protection, int flags, int file,
+              std::int64_t offset) {
+  constexpr std::uintptr_t first = 0x4000'0000, end = 0x8000'0000;
+  constexpr unsigned most_trials = 4096;
+  static std::uintptr_t next = first;
+  const std::size_t size = (length + page - 1) / page * page;
+  for (unsigned i = 0; !address && size <= end - first && i < most_trials; ++i) {
+    if (size > end - next) next = first;
+    void* const got = REAL(mmap)(reinterpret_cast<void*>(next), length, protection,
+                                 flags | MAP_FIXED_NOREPLACE, file, static_cast<off_t>(offset));
+    next += size;
+    if (got != MAP_FAILED || errno != EEXIST) return got;
+  }
+  return REAL(mmap)(address, length, protection, flags, file, static_cast<off_t>(offset));
+}
+
 void* map_registers(void* address, std::size_t length, int protection, int flags,
                     std::uint32_t bus_address) {
   if ((flags & MAP_SHARED) == 0)
@@ -239,14 +255,17 @@ void* map_registers(void* address, std::size_t length, int protection, int flags
     return MAP_FAILED;
   }
   const int kept = flags & (MAP_FIXED | MAP_FIXED_NOREPLACE);
-  void* const got =
-      REAL(mmap)(address, length, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | kept, -1, 0);
+  void* const got = map_low(address, length, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | kept, -1, 0);
   if (got == MAP_FAILED) return got;
   const auto first = reinterpret_cast<std::uintptr_t>(got);
   unmap_registers(got, length);
   mappings[mapping_count++] = {first, first + (length + page - 1) / page * page, bus_address,
                                protection};
   return got;
+}
+
+bool are_registers(const void* address) {
+  return find(reinterpret_cast<std::uintptr_t>(address)) != nullptr;
 }
 
 // What is left of a mapping lies before or behind.

@@ -151,6 +151,9 @@ BOOST_AUTO_TEST_CASE(devices_for_linux) {
                  "\t\t\tclocks = <&clkc 15>"));
   BOOST_TEST(has(tree, "xlnx,sg-length-width = <0x14>;"));
   BOOST_TEST(has(tree, "own_0: own@43c00000"));
+  BOOST_TEST(has(tree,
+                 "\t\t\tdma-channel@40400030 {\n"
+                 "\t\t\t\tcompatible = \"xlnx,axi-dma-s2mm-channel\";\n"));
 }
 
 BOOST_AUTO_TEST_CASE(a_picture_of_the_design) {
