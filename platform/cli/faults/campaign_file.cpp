@@ -34,7 +34,11 @@ class CampaignReader : private vp::YamlReader {
          {"repeat",
           [&](const YAML::Node& node) { campaign.repeat = whole(node, "repeat", 1, 1000); }},
          {"classes", [&](const YAML::Node& node) { campaign.classes = classes(node); }},
-         {"below", [&](const YAML::Node& node) { campaign.below = scalars(node, "below"); }}},
+         {"below", [&](const YAML::Node& node) { campaign.below = scalars(node, "below"); }},
+         {"simulate",
+          [&](const YAML::Node& node) {
+            campaign.simulates_all = choice(node, "simulate", {"needed", "all"}) == "all";
+          }}},
         "a campaign");
     return campaign;
   }

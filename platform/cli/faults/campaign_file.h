@@ -17,6 +17,7 @@ namespace platform::cli {
 ///   classes: [bus, register]     # none: all
 ///   below: [pl.axi_dma_0]        # none: everywhere
 ///   set: {ps.cores: 1}
+///   simulate: all                # needed: not those whose outcome is known without
 struct CampaignFile {
   std::optional<std::string> design;
   std::optional<std::string> program;
@@ -28,6 +29,7 @@ struct CampaignFile {
   std::uint64_t repeat = 1;  ///< times that the inputs are run
   std::vector<std::string> classes;
   std::vector<std::string> below;
+  bool simulates_all = false;
 };
 
 /// Reads one. Throws vp::InputError "FILE:line: …".
