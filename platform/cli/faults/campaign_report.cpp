@@ -213,21 +213,23 @@ std::string shots_csv(const std::vector<Shot>& shots) {
 Json campaign_json(const CampaignFile& file, const Campaign& campaign) {
   Counts all;
   for (const Shot& shot : campaign.shots) all.add(shot);
-  return {{"seed", file.seed},
-          {"known", known_json(campaign.shots)},
-          {"units", campaign.right.units.size()},
-          {"end_us", us_of(campaign.right.end_ps)},
-          {"all", counts_json(all)},
-          {"classes", groups_json(by_class(campaign))},
-          {"modules", groups_json(by_module(campaign))},
-          {"bits", groups_json(by_bit(campaign))}};
+  Json json;
+  if (file.design) json["design"] = *file.design;
+  json.update({{"inputs", file.inputs},
+               {"seed", file.seed},
+               {"known", known_json(campaign.shots)},
+               {"units", campaign.right.units.size()},
+               {"end_us", us_of(campaign.right.end_ps)},
+               {"all", counts_json(all)},
+               {"classes", groups_json(by_class(campaign))},
+               {"modules", groups_json(by_module(campaign))},
+               {"bits", groups_json(by_bit(campaign))}});
+  return json;
 }
 
 bool write_campaign_page(const std::string& path, const CampaignFile& file,
                          const Campaign& campaign) {
   Json data = campaign_json(file, campaign);
-  if (file.design) data["design"] = *file.design;
-  data["inputs"] = file.inputs;
   data["outcomes"] = Json::array();
   for (const Outcome outcome : outcomes()) data["outcomes"].push_back(to_string(outcome));
   data["shots"] = Json::array();
