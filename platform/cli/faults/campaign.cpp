@@ -34,7 +34,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A copy that takes longer than that on the host has failed.
-constexpr int longest_copy_ms = 60'000;
+constexpr int longest_copy_ms = 600'000;
 
 /// The platform of a campaign in this process, with all its inputs in memory.
 class Subject {
@@ -196,7 +196,10 @@ void write_all(int descriptor, const std::string& text) {
 class Carrier {
  public:
   Carrier(const CampaignFile& file, const Campaign& campaign, std::ostream& out)
-      : campaign_(campaign), out_(out), subject_(file) {}
+      : campaign_(campaign),
+        out_(out),
+        latest_ps_(campaign.right.end_ps + std::max(campaign.right.end_ps, file.patience_ps)),
+        subject_(file) {}
 
   /// `mine`: places in campaign.shots.
   void run(const std::vector<std::size_t>& mine) {
@@ -252,8 +255,7 @@ class Carrier {
     } catch (const vp::InputError& error) {
       answer(Outcome::broken, 0, error.what());
     }
-    // A system that is late by its whole time is not coming.
-    simulation.injector().plan(2 * campaign_.right.end_ps, [] { Simulation::interrupt(); });
+    simulation.injector().plan(latest_ps_, [] { Simulation::interrupt(); });
   }
 
   [[noreturn]] void finish_copy(const Witness& seen) {
@@ -268,6 +270,7 @@ class Carrier {
 
   const Campaign& campaign_;
   std::ostream& out_;
+  const std::uint64_t latest_ps_;  ///< a system that is later is not coming
   Subject subject_;
   std::optional<std::size_t> copy_;
   int writing_ = -1;
