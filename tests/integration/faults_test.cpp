@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "executable.h"
@@ -172,6 +173,50 @@ BOOST_AUTO_TEST_CASE(a_campaign_is_the_same_with_any_number_of_jobs) {
   BOOST_TEST(contains(page, "id=\"faults\""));
 }
 
+// What the run without faults tells of a fault is what the fault does.
+BOOST_AUTO_TEST_CASE(faults_that_need_no_simulation_come_to_the_same_with_it) {
+  const std::string text =
+      "inputs: [z1.0, z2.0]\ncount: 90\nseed: 5\nclasses: [bus, memory, signal, input]\n";
+  BOOST_TEST_REQUIRE(campaign(text + "simulate: all\n", {"-o", "all"}).exit_code == 0);
+  const kit::Outcome outcome = campaign(text, {"-o", "needed"});
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0);
+  std::vector<std::string> needed = lines_of(kit::read_file(*this / "needed/faults.csv"));
+  std::map<std::string, std::set<std::string>> classes;
+  for (std::string& line : needed) {
+    for (const std::string known : {"record", "twin"}) {
+      const std::size_t at = line.find("," + known + ",");
+      if (at == std::string::npos) continue;
+      line.replace(at + 1, known.size(), "run");
+      const std::size_t from = line.find(',') + 1;
+      classes[known].insert(line.substr(from, line.find(',', from) - from));
+    }
+  }
+  BOOST_TEST((needed == lines_of(kit::read_file(*this / "all/faults.csv"))));
+  BOOST_TEST((classes["record"] == std::set<std::string>{"bus", "memory", "signal"}));
+  BOOST_TEST(classes["twin"].count("input") == 1u);
+  const Json known = Json::parse(kit::read_file(*this / "needed/faults.json")).at("known");
+  BOOST_TEST(known.at("run").get<int>() + known.at("record").get<int>() +
+                 known.at("twin").get<int>() ==
+             90);
+  BOOST_TEST(contains(outcome.out, "simulated: " + known.at("run").dump() + " faults;"));
+}
+
+// The program gives a frame up after a second, resets the logic, and the next frame is right.
+BOOST_AUTO_TEST_CASE(a_campaign_waits_for_time_outs_of_the_program) {
+  const std::string text =
+      "inputs: [z1.0, z2.0]\ncount: 12\nseed: 1\nclasses: internal\n"
+      "below: [pl.feature_packaging.want]\n";
+  const auto counts = [this] {
+    return Json::parse(kit::read_file(*this / "out/faults/faults.json")).at("all");
+  };
+  BOOST_TEST_REQUIRE(campaign(text + "patience: 1 ms\n").exit_code == 0);
+  const int hangs = counts().at("hang");
+  BOOST_TEST(hangs > 0);
+  BOOST_TEST_REQUIRE(campaign(text).exit_code == 0);
+  BOOST_TEST(counts().at("hang") == 0);
+  BOOST_TEST(counts().at("recovered").get<int>() + counts().at("reported").get<int>() >= hangs);
+}
+
 BOOST_AUTO_TEST_CASE(a_clock_changes_for_good) {
   const std::string clock = "{what: clock, where: ps.fclk_clk0.clk, at: 2 ms, frequency: ";
   BOOST_TEST(run({"z1.0", "z2.0", "--no-pictures", "--no-report"}).exit_code == 0);
@@ -221,6 +266,8 @@ BOOST_AUTO_TEST_CASE(a_campaign_that_cannot_be_is_refused) {
   };
   refuses("", "c.yaml: it is empty");
   refuses("classes: [buss]", "did you mean 'bus'?");
+  refuses("simulate: some", "c.yaml:1: 'some' for 'simulate'");
+  refuses("patience: 3", "c.yaml:1: '3' for 'patience'");
   refuses("count: 0", "c.yaml:1: '0' for 'count'");
   refuses("desing: thesis", "did you mean 'design'?");
   refuses("design: thesis\nbelow: [pl.nothing]", "nothing is below pl.nothing");

@@ -58,6 +58,18 @@ BOOST_FIXTURE_TEST_CASE(a_program_runs_on_what_was_imported, Imported) {
              std::string::npos);
 }
 
+BOOST_FIXTURE_TEST_CASE(faults_are_drawn_over_what_was_imported, Imported) {
+  import();
+  kit::write_file(*this / "c.yaml",
+                  "design: mine/design.yaml\nprogram: " MARKERVP_IMPORTED "\ncount: 40\nseed: 2\n");
+  const kit::Outcome outcome = markervp({"faults", "c.yaml", "--quiet", "-o", "faults"});
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  const Json campaign = Json::parse(kit::read_file(*this / "faults/faults.json"));
+  BOOST_TEST(campaign.at("all").at("hang") > 0);
+  BOOST_TEST(campaign.at("all").at("broken") == 0);
+  BOOST_TEST(campaign.at("modules").dump().find("pl.axi_dma_0") != std::string::npos);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_stream_of_eight_bits_carries_the_same_bytes, Imported) {
   write_handoff(replaced(kit::small_handoff().text(), kit::parameter("C_SG_LENGTH_WIDTH", "20"),
                          kit::parameter("C_SG_LENGTH_WIDTH", "20") +

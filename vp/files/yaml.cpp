@@ -200,4 +200,19 @@ std::uint64_t YamlReader::whole(const YAML::Node& node, const std::string& key, 
   return value;
 }
 
+std::uint64_t YamlReader::quantity(const YAML::Node& node, const std::string& key, Unit unit,
+                                   std::uint64_t max) const {
+  const std::string text = scalar(node, key);
+  std::optional<Decimal::Whole> whole;
+  try {
+    whole = parse_quantity(text, unit).whole();
+  } catch (const InputError& error) {
+    fail(node, "'" + text + "' for '" + key + "' " + error.what());
+  }
+  if (!whole || *whole < 0 || *whole > static_cast<Decimal::Whole>(max))
+    fail(node, "'" + text + "' for '" + key + "': write a whole number from 0 to " +
+                   std::to_string(max) + (unit == Unit::none ? "" : " " + base_unit(unit)));
+  return static_cast<std::uint64_t>(*whole);
+}
+
 }  // namespace vp

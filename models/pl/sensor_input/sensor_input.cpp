@@ -196,7 +196,7 @@ SensorFrames::SensorFrames(const char* name, vp::Clock& clk, const Geometry& geo
 
 void SensorFrames::read_from(xilinx::Bram& bram) {
   bram_ = &bram;
-  bram.set_reader(*this);
+  bram.set_reader(this);
 }
 
 void SensorFrames::begin(std::uint64_t first_cycle) {

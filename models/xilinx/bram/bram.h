@@ -76,8 +76,9 @@ class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::s
   /// Returns the present memory without moving it; the Bram continues with a copy.
   std::vector<std::uint8_t> fork();
 
-  // At most one of each.
-  void set_reader(Reader& reader) { reader_ = &reader; }
+  // At most one of each; null for none.
+  void set_reader(Reader* reader) { reader_ = reader; }
+  Reader* reader() const { return reader_; }
   void set_writer(Writer& writer) { writer_ = &writer; }
   bool is_read() const { return reader_ && reader_->reads(); }
   /// Before a reader starts.

@@ -173,21 +173,6 @@ class FaultReader : private vp::YamlReader {
     if (value < min) fail(node, "'" + key + "' is at least " + std::to_string(min));
     return value;
   }
-  std::uint64_t quantity(const YAML::Node& node, const std::string& key, vp::Unit unit,
-                         std::uint64_t max) const {
-    const std::string text = scalar(node, key);
-    std::optional<vp::Decimal::Whole> whole;
-    try {
-      whole = vp::parse_quantity(text, unit).whole();
-    } catch (const vp::InputError& error) {
-      fail(node, "'" + text + "' for '" + key + "' " + error.what());
-    }
-    if (!whole || *whole < 0 || *whole > static_cast<vp::Decimal::Whole>(max))
-      fail(node, "'" + text + "' for '" + key + "': write a whole number from 0 to " +
-                     std::to_string(max) +
-                     (unit == vp::Unit::none ? "" : " " + vp::base_unit(unit)));
-    return static_cast<std::uint64_t>(*whole);
-  }
 
   static constexpr std::uint64_t most = std::uint64_t{1} << 62;
 

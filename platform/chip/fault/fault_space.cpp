@@ -44,7 +44,7 @@ const std::vector<std::string>& FaultSpace::classes() {
 
 FaultSpace::FaultSpace(Injector& injector, const std::vector<std::string>& chosen,
                        const std::vector<std::string>& below, std::uint64_t units)
-    : below_(below) {
+    : injector_(injector), below_(below) {
   for (const std::string& name : chosen.empty() ? classes() : chosen) {
     if (chosen.empty() && name == on_request) continue;
     Class found = find(name, injector, units);
@@ -210,7 +210,7 @@ FaultSpace::Drawn FaultSpace::draw(vp::RandomBits& random, std::uint64_t from_ps
   std::string text = place->text(n);
   if (drawn.name != "input") text += ", at: " + std::to_string(at_ps) + " ps";
   Drawn result{parse_faults("[{" + text + "}]", "campaign").front(), drawn.name, place->module};
-  if (drawn.name == "input") result.fault.at_ps = from_ps;
+  if (drawn.name == "input") result.fault.at_ps = injector_.before_unit_ps(result.fault.nth);
   return result;
 }
 

@@ -41,7 +41,8 @@ class FaultSpace {
     std::string of_class;
     std::string module;  ///< path of the place, without its last part
   };
-  /// One at a time in [from_ps, to_ps): each class is as likely, and each bit of a class.
+  /// One at a time in [from_ps, to_ps), or of an input when it is given: each class is as likely,
+  /// and each bit of a class.
   Drawn draw(vp::RandomBits& random, std::uint64_t from_ps, std::uint64_t to_ps) const;
 
  private:
@@ -71,6 +72,7 @@ class FaultSpace {
   void find_clocks(Class& found, Zynq& zynq) const;
   void find_inputs(Class& found, Zynq& zynq, std::uint64_t units) const;
 
+  Injector& injector_;
   std::vector<std::string> below_;
   std::vector<Class> classes_;
 };

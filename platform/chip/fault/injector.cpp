@@ -130,6 +130,7 @@ void check_played(const Injector& injector, const std::string& path) {
 }
 
 void Injector::spoil(std::uint64_t unit, std::vector<std::uint8_t>& bytes) {
+  if (unit > given_ps_.size()) given_ps_.push_back(zynq_.scheduler.now_ps());
   const std::vector<std::uint8_t> right = bytes;
   for (Injection& injection : injections_) {
     const Fault& fault = injection.fault;
@@ -148,6 +149,12 @@ void Injector::spoil(std::uint64_t unit, std::vector<std::uint8_t>& bytes) {
     injection.happened(zynq_.scheduler.now_ps());
   }
   before_ = right;
+}
+
+std::uint64_t Injector::before_unit_ps(std::uint64_t unit) const {
+  if (unit == 0 || unit > given_ps_.size()) return 0;
+  const std::uint64_t given_ps = given_ps_[unit - 1];
+  return given_ps == 0 ? 0 : given_ps - 1;
 }
 
 std::vector<facts::Injected> Injector::report() const {

@@ -50,6 +50,8 @@ class Injector {
 
   /// Changes what the program is given as unit `unit`, from 1.
   void spoil(std::uint64_t unit, std::vector<std::uint8_t>& bytes);
+  /// Just before the program was given unit `unit` of those that spoil() saw; 0: it was not.
+  std::uint64_t before_unit_ps(std::uint64_t unit) const;
 
   /// What came of the faults, in their order.
   std::vector<facts::Injected> report() const;
@@ -77,7 +79,8 @@ class Injector {
   std::multimap<std::uint64_t, std::function<void()>> plans_;
   sc_core::sc_event planned_;
   bool started_ = false;
-  std::vector<std::uint8_t> before_;  ///< the unit before, as it was made
+  std::vector<std::uint8_t> before_;     ///< the unit before, as it was made
+  std::vector<std::uint64_t> given_ps_;  ///< by unit
 };
 
 /// Whether a path is that of a stream.

@@ -167,7 +167,10 @@ void Simulation::build() {
 
 void Simulation::inject(const Fault& fault, const std::string& origin) {
   injector_->add(fault, origin);
-  if (!fault.is_of_input()) return;
+  if (fault.is_of_input()) let_inputs_fail();
+}
+
+void Simulation::let_inputs_fail() {
   bench_->spoil_inputs([this](std::uint64_t unit, std::vector<std::uint8_t>& bytes) {
     injector_->spoil(unit, bytes);
   });

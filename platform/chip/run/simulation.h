@@ -97,6 +97,8 @@ class Simulation {
 
   /// One more fault, before the run or from an action of injector(). As Injector::add().
   void inject(const Fault& fault, const std::string& origin);
+  /// Before the run: keeps what inputs were, so that faults of them can be added later.
+  void let_inputs_fail();
   Injector& injector() { return *injector_; }
 
   Zynq& zynq() { return *zynq_; }

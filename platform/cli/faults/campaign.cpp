@@ -11,11 +11,14 @@
 #include <cerrno>
 #include <csignal>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <system_error>
+#include <unordered_map>
 #include <utility>
 
 #include <chip/fault/fault_space.h>
+#include <chip/fault/prospects.h>
 #include <chip/run/simulation.h>
 #include <cli/commands.h>
 #include <cli/options.h>
@@ -31,7 +34,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A copy that takes longer than that on the host has failed.
-constexpr int longest_copy_ms = 60'000;
+constexpr int longest_copy_ms = 600'000;
 
 /// The platform of a campaign in this process, with all its inputs in memory.
 class Subject {
@@ -52,6 +55,7 @@ class Subject {
     const auto& classes = file.classes;
     if (std::find(classes.begin(), classes.end(), FaultSpace::on_request) != classes.end())
       let_streams_fail();
+    simulation_->let_inputs_fail();
     const auto source =
         study::open_inputs({file.inputs, {}, simulation_->input(), file.repeat, {}});
     while (facts::SharedInput input = source->next()) inputs_.push_back(std::move(input));
@@ -121,8 +125,44 @@ Campaign prepare(const CampaignFile& file) {
   });
   Campaign campaign{Witness::of(json.at("right")), {}};
   for (const Json& shot : json.at("shots"))
-    campaign.shots.push_back({shot[0], shot[1], shot[2], shot[3], Outcome::broken, 0, {}});
+    campaign.shots.push_back(
+        {shot[0], shot[1], shot[2], shot[3], Outcome::broken, 0, {}, Known::run});
   return campaign;
+}
+
+Fault fault_of(const Shot& shot) {
+  return parse_faults("[" + shot.fault + "]", "campaign").front();
+}
+
+/// By shot, the one that is simulated for it: itself, or an earlier twin. Those that change nothing
+/// have their outcome already.
+std::vector<std::size_t> foresee(const CampaignFile& file, Campaign& campaign) {
+  std::vector<std::size_t> simulated(campaign.shots.size());
+  std::iota(simulated.begin(), simulated.end(), std::size_t{0});
+  if (file.simulates_all) return simulated;
+  const Json json = in_child([&] {
+    Subject subject(file);
+    Prospects prospects(subject.simulation().injector());
+    for (const Shot& shot : campaign.shots) prospects.look_at(fault_of(shot));
+    subject.run();
+    Json found = Json::array();
+    for (const Prospects::Prospect& one : prospects.found())
+      found.push_back({one.changes_nothing, one.times, one.meets});
+    return found;
+  });
+  std::unordered_map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    Shot& shot = campaign.shots[i];
+    if (json[i][0]) {
+      shot.outcome = Outcome::masked;
+      shot.times = json[i][1];
+      shot.known = Known::record;
+    } else {
+      simulated[i] = first.emplace(json[i][2], i).first->second;
+      if (simulated[i] != i) shot.known = Known::twin;
+    }
+  }
+  return simulated;
 }
 
 /// All that a process writes until it ends; nothing if it takes too long, and is ended.
@@ -156,7 +196,10 @@ void write_all(int descriptor, const std::string& text) {
 class Carrier {
  public:
   Carrier(const CampaignFile& file, const Campaign& campaign, std::ostream& out)
-      : campaign_(campaign), out_(out), subject_(file) {}
+      : campaign_(campaign),
+        out_(out),
+        latest_ps_(campaign.right.end_ps + std::max(campaign.right.end_ps, file.patience_ps)),
+        subject_(file) {}
 
   /// `mine`: places in campaign.shots.
   void run(const std::vector<std::size_t>& mine) {
@@ -208,13 +251,11 @@ class Carrier {
     Simulation& simulation = subject_.simulation();
     try {
       simulation.zynq().ps.leave_memory_to_parent();
-      simulation.inject(parse_faults("[" + campaign_.shots[i].fault + "]", "campaign").front(),
-                        "campaign");
+      simulation.inject(fault_of(campaign_.shots[i]), "campaign");
     } catch (const vp::InputError& error) {
       answer(Outcome::broken, 0, error.what());
     }
-    // A system that is late by its whole time is not coming.
-    simulation.injector().plan(2 * campaign_.right.end_ps, [] { Simulation::interrupt(); });
+    simulation.injector().plan(latest_ps_, [] { Simulation::interrupt(); });
   }
 
   [[noreturn]] void finish_copy(const Witness& seen) {
@@ -229,6 +270,7 @@ class Carrier {
 
   const Campaign& campaign_;
   std::ostream& out_;
+  const std::uint64_t latest_ps_;  ///< a system that is later is not coming
   Subject subject_;
   std::optional<std::size_t> copy_;
   int writing_ = -1;
@@ -239,48 +281,106 @@ Outcome outcome_named(const std::string& name) {
                        [&name](Outcome outcome) { return to_string(outcome) == name; });
 }
 
-/// What a carrier wrote: a line a shot.
-void take(const std::string& lines, Campaign& campaign, std::vector<bool>& done) {
-  for (std::size_t at = 0; at < lines.size();) {
-    const std::size_t end = std::min(lines.find('\n', at), lines.size());
-    const Json line = Json::parse(lines.begin() + static_cast<std::ptrdiff_t>(at),
-                                  lines.begin() + static_cast<std::ptrdiff_t>(end));
-    at = end + 1;
-    const std::size_t i = line.at(0).get<std::size_t>();
-    Shot& shot = campaign.shots.at(i);
-    shot.outcome = outcome_named(line.at(1));
-    line.at(2).get_to(shot.times);
-    line.at(3).get_to(shot.sign);
-    done.at(i) = true;
+/// The shots of a campaign, as they become known.
+class Score {
+ public:
+  Score(Campaign& campaign, std::vector<std::size_t> simulated)
+      : campaign_(campaign), simulated_(std::move(simulated)), done_(campaign.shots.size()) {
+    for (std::size_t i = 0; i < done_.size(); ++i) {
+      done_[i] = campaign.shots[i].known == Known::record;
+      if (campaign.shots[i].known == Known::run) open_.push_back(i);
+    }
   }
-}
+
+  /// Those that have to be simulated.
+  const std::vector<std::size_t>& open() const { return open_; }
+  std::uint64_t finished() const {
+    std::uint64_t count = 0;
+    for (const std::size_t i : simulated_) count += done_[i] ? 1 : 0;
+    return count;
+  }
+  /// What a carrier wrote: a line a shot.
+  void take(const std::string& lines) {
+    for (std::size_t at = 0; at < lines.size();) {
+      const std::size_t end = std::min(lines.find('\n', at), lines.size());
+      const Json line = Json::parse(lines.begin() + static_cast<std::ptrdiff_t>(at),
+                                    lines.begin() + static_cast<std::ptrdiff_t>(end));
+      at = end + 1;
+      const std::size_t i = line.at(0).get<std::size_t>();
+      Shot& shot = campaign_.shots.at(i);
+      shot.outcome = outcome_named(line.at(1));
+      line.at(2).get_to(shot.times);
+      line.at(3).get_to(shot.sign);
+      done_.at(i) = true;
+    }
+  }
+  /// Leaves those that are known. Of an interrupted campaign these are all up to the first that is
+  /// not: those that are known without simulation would be too many.
+  void close(bool is_interrupted) {
+    std::vector<Shot> shots;
+    for (std::size_t i = 0; i < done_.size(); ++i) {
+      Shot& shot = campaign_.shots[i];
+      const Shot& twin = campaign_.shots[simulated_[i]];
+      if (!done_[simulated_[i]]) {
+        if (is_interrupted) break;
+        throw vp::InputError("nothing is known of fault " + shot.fault);
+      }
+      if (shot.known == Known::twin) {
+        shot.outcome = twin.outcome;
+        shot.times = twin.times;
+        shot.sign = twin.sign;
+      }
+      shots.push_back(shot);
+    }
+    campaign_.shots = std::move(shots);
+  }
+
+ private:
+  Campaign& campaign_;
+  std::vector<std::size_t> simulated_;
+  std::vector<bool> done_;
+  std::vector<std::size_t> open_;
+};
 
 }  // namespace
+
+const char* to_string(Known known) {
+  switch (known) {
+    case Known::run:
+      return "run";
+    case Known::record:
+      return "record";
+    case Known::twin:
+      return "twin";
+  }
+  return "";
+}
 
 Campaign run_campaign(const CampaignFile& file, unsigned jobs,
                       const std::function<void(std::uint64_t)>& progress) {
   Campaign campaign = prepare(file);
-  std::vector<bool> done(campaign.shots.size());
+  Score score(campaign, foresee(file, campaign));
   // A carrier takes some at a time, so that its process does not become large, and all are busy.
   constexpr std::size_t most_at_once = 500;
-  const std::size_t count = campaign.shots.size();
+  const std::vector<std::size_t>& open = score.open();
   const std::size_t at_once =
-      std::min(most_at_once, std::max<std::size_t>(1, (count + jobs - 1) / jobs));
+      std::min(most_at_once, std::max<std::size_t>(1, (open.size() + jobs - 1) / jobs));
   std::size_t next = 0;
-  std::uint64_t finished = 0;
   std::vector<std::unique_ptr<host::Child>> running;
   const auto start = [&] {
-    std::vector<std::size_t> mine;
-    for (; next < count && mine.size() < at_once; ++next) mine.push_back(next);
+    const std::size_t end = std::min(open.size(), next + at_once);
+    std::vector<std::size_t> mine(open.begin() + static_cast<std::ptrdiff_t>(next),
+                                  open.begin() + static_cast<std::ptrdiff_t>(end));
+    next = end;
     running.push_back(
         std::make_unique<host::Child>([&file, &campaign, mine](std::ostream& out, std::ostream&) {
           Carrier(file, campaign, out).run(mine);
           return host::done;
         }));
   };
-  while (next < count || !running.empty()) {
+  while (next < open.size() || !running.empty()) {
     if (host::InterruptGuard::noted()) break;
-    while (next < count && running.size() < jobs) start();
+    while (next < open.size() && running.size() < jobs) start();
     const auto over = std::find_if(running.begin(), running.end(),
                                    [](const auto& child) { return child->ended(); });
     if (over == running.end()) {
@@ -289,21 +389,13 @@ Campaign run_campaign(const CampaignFile& file, unsigned jobs,
     }
     const host::ChildEnd end = (*over)->wait();
     running.erase(over);
-    take(end.out, campaign, done);
+    score.take(end.out);
     if (end.exit_code != host::done)
       throw vp::InputError("a process of the campaign failed: " +
                            (end.err.empty() ? "a signal ended it" : end.err));
-    finished = static_cast<std::uint64_t>(std::count(done.begin(), done.end(), true));
-    progress(finished);
+    progress(score.finished());
   }
-  // Only those of an interrupted campaign are missing.
-  std::vector<Shot> shots;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!done[i] && !host::InterruptGuard::noted())
-      throw vp::InputError("nothing is known of fault " + campaign.shots[i].fault);
-    if (done[i]) shots.push_back(std::move(campaign.shots[i]));
-  }
-  campaign.shots = std::move(shots);
+  score.close(host::InterruptGuard::noted());
   return campaign;
 }
 

@@ -3,6 +3,7 @@
 #include <chip/fault/fault_space.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/unit.h>
 #include <vp/yaml.h>
 
 namespace platform::cli {
@@ -18,6 +19,7 @@ class CampaignReader : private vp::YamlReader {
     if (file.IsNull()) throw vp::InputError(path_ + ": it is empty: write 'design: thesis'");
     CampaignFile campaign;
     constexpr std::uint64_t most = 10'000'000;
+    constexpr std::uint64_t most_patience_ps = 1'000'000'000'000'000;
     for_each(
         file,
         {{"design", [&](const YAML::Node& node) { campaign.design = scalar(node, "design"); }},
@@ -34,7 +36,15 @@ class CampaignReader : private vp::YamlReader {
          {"repeat",
           [&](const YAML::Node& node) { campaign.repeat = whole(node, "repeat", 1, 1000); }},
          {"classes", [&](const YAML::Node& node) { campaign.classes = classes(node); }},
-         {"below", [&](const YAML::Node& node) { campaign.below = scalars(node, "below"); }}},
+         {"below", [&](const YAML::Node& node) { campaign.below = scalars(node, "below"); }},
+         {"patience",
+          [&](const YAML::Node& node) {
+            campaign.patience_ps = quantity(node, "patience", vp::Unit::time, most_patience_ps);
+          }},
+         {"simulate",
+          [&](const YAML::Node& node) {
+            campaign.simulates_all = choice(node, "simulate", {"needed", "all"}) == "all";
+          }}},
         "a campaign");
     return campaign;
   }

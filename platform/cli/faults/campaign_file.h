@@ -17,6 +17,8 @@ namespace platform::cli {
 ///   classes: [bus, register]     # none: all
 ///   below: [pl.axi_dma_0]        # none: everywhere
 ///   set: {ps.cores: 1}
+///   simulate: all                # needed: not those whose outcome is known without
+///   patience: 200 ms             # how long a run with a fault may take longer
 struct CampaignFile {
   std::optional<std::string> design;
   std::optional<std::string> program;
@@ -28,6 +30,10 @@ struct CampaignFile {
   std::uint64_t repeat = 1;  ///< times that the inputs are run
   std::vector<std::string> classes;
   std::vector<std::string> below;
+  bool simulates_all = false;
+  /// Beyond the end of the run without faults, before a run with one is a hang; at least that run's
+  /// time. Programs that give a unit up after a second must come to it.
+  std::uint64_t patience_ps = 1'500'000'000'000;
 };
 
 /// Reads one. Throws vp::InputError "FILE:line: …".

@@ -116,6 +116,18 @@ Json groups_json(const Groups& groups) {
   return json;
 }
 
+std::uint64_t count_known(const std::vector<Shot>& shots, Known known) {
+  return static_cast<std::uint64_t>(std::count_if(
+      shots.begin(), shots.end(), [known](const Shot& shot) { return shot.known == known; }));
+}
+
+Json known_json(const std::vector<Shot>& shots) {
+  Json json;
+  for (const Known known : {Known::run, Known::record, Known::twin})
+    json[to_string(known)] = count_known(shots, known);
+  return json;
+}
+
 /// The run with one fault, as a user types it.
 std::string again(const CampaignFile& file, const Shot& shot) {
   std::vector<std::string> words = file.inputs;
@@ -177,16 +189,23 @@ std::string fearful_examples(const CampaignFile& file, const std::vector<Shot>& 
 }
 
 std::string campaign_tables(const Campaign& campaign) {
-  return table_of("class", by_class(campaign)) + "\n" + table_of("module", by_module(campaign));
+  const auto known = [&campaign](Known how) {
+    return result::counted(count_known(campaign.shots, how), "fault");
+  };
+  return table_of("class", by_class(campaign)) + "\n" + table_of("module", by_module(campaign)) +
+         "\nsimulated: " + known(Known::run) +
+         "; without effect by the record of a run: " + known(Known::record) +
+         "; the same as one that was simulated: " + known(Known::twin) + "\n";
 }
 
 std::string shots_csv(const std::vector<Shot>& shots) {
-  std::string text = "number,class,module,at_us,outcome,times,fault,sign\n";
+  std::string text = "number,class,module,at_us,outcome,times,known,fault,sign\n";
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const Shot& shot = shots[i];
     text += result::csv_line({std::to_string(i + 1), shot.of_class, shot.module,
                               vp::format_fixed(us_of(shot.at_ps), 6), to_string(shot.outcome),
-                              std::to_string(shot.times), shot.fault, vp::visible(shot.sign)});
+                              std::to_string(shot.times), to_string(shot.known), shot.fault,
+                              vp::visible(shot.sign)});
   }
   return text;
 }
@@ -194,20 +213,23 @@ std::string shots_csv(const std::vector<Shot>& shots) {
 Json campaign_json(const CampaignFile& file, const Campaign& campaign) {
   Counts all;
   for (const Shot& shot : campaign.shots) all.add(shot);
-  return {{"seed", file.seed},
-          {"units", campaign.right.units.size()},
-          {"end_us", us_of(campaign.right.end_ps)},
-          {"all", counts_json(all)},
-          {"classes", groups_json(by_class(campaign))},
-          {"modules", groups_json(by_module(campaign))},
-          {"bits", groups_json(by_bit(campaign))}};
+  Json json;
+  if (file.design) json["design"] = *file.design;
+  json.update({{"inputs", file.inputs},
+               {"seed", file.seed},
+               {"known", known_json(campaign.shots)},
+               {"units", campaign.right.units.size()},
+               {"end_us", us_of(campaign.right.end_ps)},
+               {"all", counts_json(all)},
+               {"classes", groups_json(by_class(campaign))},
+               {"modules", groups_json(by_module(campaign))},
+               {"bits", groups_json(by_bit(campaign))}});
+  return json;
 }
 
 bool write_campaign_page(const std::string& path, const CampaignFile& file,
                          const Campaign& campaign) {
   Json data = campaign_json(file, campaign);
-  if (file.design) data["design"] = *file.design;
-  data["inputs"] = file.inputs;
   data["outcomes"] = Json::array();
   for (const Outcome outcome : outcomes()) data["outcomes"].push_back(to_string(outcome));
   data["shots"] = Json::array();

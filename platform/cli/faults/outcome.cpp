@@ -17,6 +17,27 @@ std::string without_time(const std::string& warning) {
   return at == std::string::npos ? warning : warning.substr(0, at);
 }
 
+/// When things happened, and what follows from that.
+bool is_of_time(const std::string& name) {
+  const std::string ending = "_us";
+  const bool is_time = name.size() > ending.size() &&
+                       name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  return is_time || name == "fps" || name == "energy_mj";
+}
+
+void remove_times(Json& json) {
+  if (json.is_object()) {
+    std::vector<std::string> times;
+    for (const auto& [name, member] : json.items()) {
+      if (is_of_time(name)) times.push_back(name);
+    }
+    for (const std::string& name : times) json.erase(name);
+  }
+  for (Json& part : json) {
+    if (part.is_structured()) remove_times(part);
+  }
+}
+
 /// Whether unit `i` is as it was without a fault.
 bool is_right(const Witness& right, const Witness& seen, std::size_t i) {
   return i < seen.units.size() && seen.units[i] == right.units[i];
@@ -36,8 +57,8 @@ const std::string* new_warning(const Witness& right, const Witness& seen) {
 
 void Witness::add(const facts::UnitReport& unit) {
   Json json = result::to_json(unit);
-  for (const char* key : {"time_us", "latency_us", "fps", "energy_mj", "warnings", "camera"})
-    json.erase(key);
+  remove_times(json);
+  for (const char* key : {"warnings", "camera"}) json.erase(key);
   // What a unit delivers, where it delivers something else than counts.
   if (unit.extra || !unit.figures.empty()) json.erase("counts");
   units.push_back(std::move(json));

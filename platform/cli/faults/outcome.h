@@ -35,7 +35,7 @@ struct Witness {
 ///   |           | one is right                                                                  |
 ///   | reported  | are wrong, and the program or a checker said so                               |
 ///   | unnoticed | are wrong, and there is no sign of it                                         |
-///   | hang      | do not all come: the program waits for ever, or beyond twice its time         |
+///   | hang      | do not all come: the program waits for ever, or longer than the campaign      |
 ///   | broken    | are not known: the simulator failed                                           |
 enum class Outcome { masked, recovered, reported, unnoticed, hang, broken };
 

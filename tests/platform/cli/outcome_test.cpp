@@ -1,7 +1,11 @@
 // What a fault came to, of what is seen of a run.
 #include <boost/test/unit_test.hpp>
 
+#include <memory>
+#include <string>
+
 #include <cli/faults/outcome.h>
+#include <nlohmann/json.hpp>
 
 using platform::cli::classify;
 using platform::cli::Outcome;
@@ -20,6 +24,30 @@ Witness witness(const std::string& first, const std::string& second) {
 
 const Witness right = witness("a", "b");
 
+/// Says when something happened to a unit, and what came of it.
+class Echo : public platform::facts::UnitExtra {
+ public:
+  Echo(double at_us, int height) : at_us_(at_us), height_(height) {}
+  std::string heading() const override { return "an echo"; }
+  void add_members(Place place, Json& json) const override {
+    if (place == Place::behind_index) json["taken_us"] = at_us_;
+    if (place == Place::behind_counts) json["echo"] = {{"at_us", at_us_}, {"height", height_}};
+  }
+
+ private:
+  double at_us_;
+  int height_;
+};
+
+Witness echo(double at_us, int height) {
+  platform::facts::UnitReport unit;
+  unit.extra = std::make_shared<Echo>(at_us, height);
+  Witness witness;
+  witness.add(unit);
+  witness.ended = true;
+  return witness;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(outcome)
@@ -30,6 +58,11 @@ BOOST_AUTO_TEST_CASE(a_right_run_is_masked_unless_something_was_noticed) {
   seen.add_warning("pl.axi_dma_0: odd (/markervp/odd at 12 us)");
   BOOST_TEST((classify(right, seen) == Outcome::recovered));
   BOOST_TEST(sign(right, seen) == "pl.axi_dma_0: odd (/markervp/odd");
+}
+
+BOOST_AUTO_TEST_CASE(a_unit_that_comes_later_is_right) {
+  BOOST_TEST((classify(echo(1.5, 3), echo(2.5, 3)) == Outcome::masked));
+  BOOST_TEST((classify(echo(1.5, 3), echo(1.5, 4)) == Outcome::unnoticed));
 }
 
 BOOST_AUTO_TEST_CASE(a_warning_of_the_right_run_is_no_sign) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vp/unit.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cstdint>
@@ -46,6 +47,9 @@ class YamlReader {
                      const std::vector<std::string>& names) const;
   std::uint64_t whole(const YAML::Node& node, const std::string& key, std::uint64_t min,
                       std::uint64_t max) const;
+  /// "1.2 ms": a whole number of the unit's base, 0 to `max`.
+  std::uint64_t quantity(const YAML::Node& node, const std::string& key, Unit unit,
+                         std::uint64_t max) const;
 
  private:
   std::string origin_;
