@@ -102,9 +102,9 @@ class Graph {
     }
     if (order.size() == bits_.size()) return order;
     const auto on_loop = std::find_if(open.begin(), open.end(), [](unsigned n) { return n > 0; });
-    throw vp::InputError("a combinational loop goes through '" +
-                         name_of(static_cast<unsigned>(on_loop - open.begin())) +
-                         "': put a register into it");
+    throw LoopError("a combinational loop goes through '" +
+                    name_of(static_cast<unsigned>(on_loop - open.begin())) +
+                    "': put a register into it");
   }
 
   /// The fan-outs that there are. 0 represents a path that never leaves its slice.

@@ -30,8 +30,8 @@ class YosysFolder {
 
   std::filesystem::path operator/(const std::string& name) const { return scratch_ / name; }
 
-  /// The command of a script behind which refuse_loops() knows of combinational loops. (`tee` takes
-  /// no name with a space in it: the file lies where Yosys runs.)
+  /// The command of a script behind which refuse_loops() knows of combinational loops: those of
+  /// words. Bit by bit some of them are none.
   static constexpr const char* check = "tee -q -o check.txt check";
   /// Throws vp::InputError with file and line if there is one.
   void refuse_loops() const;
@@ -42,7 +42,8 @@ class YosysFolder {
  private:
   host::CommandEnd run_script(const Script& script, unsigned seconds) const;
   std::string reading() const;
-  void copy_without_format_widths();
+  void copy_without_simulation();
+  void refuse_endings() const;
   void name_originals(std::string& text) const;
   /// "file:line: " of the first line with both; "" without one.
   std::string place_of(const std::string& word, const std::string& name) const;

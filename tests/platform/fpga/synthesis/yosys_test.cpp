@@ -240,6 +240,49 @@ BOOST_AUTO_TEST_CASE(a_combinational_loop_is_named_with_its_line) {
              {"own.sv:2", "loop"});
 }
 
+// Each bit depends on those before it: a loop of words, and none of bits.
+BOOST_AUTO_TEST_CASE(the_first_of_several_bits_is_no_loop) {
+  const std::string text = R"(module own #(parameter W = 4) (
+  input logic clk, input logic [W-1:0] d, output logic [W-1:0] q);
+  wire [W-1:0] first;
+  for (genvar i = 0; i < W; i++) begin : g
+    assign first[i] = d[i] & ~|(first & ({W{1'b1}} >> (W - i)));
+  end
+  always_ff @(posedge clk) q <= first;
+endmodule
+)";
+  BOOST_TEST(synthesise(design(text, "own"), timing).netlist.cells.ff == 4u);
+}
+
+BOOST_AUTO_TEST_CASE(warnings_and_assertions_are_no_obstacle) {
+  const std::string text = R"(module own (input logic clk, d, output logic q);
+  initial begin $timeformat(-9, 0, " ns", 8); $warning("small"); end
+  always_ff @(posedge clk) begin
+    q <= d;
+    if (d) $error("d is %2d", d);
+    assert (d) else $error("no d");
+  end
+endmodule
+)";
+  BOOST_TEST(synthesise(design(text, "own"), timing).netlist.cells.ff == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(parameters_that_the_rtl_refuses_are_refused_with_its_line) {
+  const std::string text = R"(module own #(parameter W = 8) (input logic a, output logic b);
+  initial begin
+    if (W < 8) begin
+      $error("narrow");
+      $finish;
+    end
+  end
+  assign b = a;
+endmodule
+)";
+  BOOST_TEST(refusal(text) == "");
+  check_says(refusal(text, "own", {{"W", 4}}), {"'own' W=4", "own.sv:4", "$error(\"narrow\");"});
+  check_says(refusal(text, "own", {{"W", -4}}), {"'own' W=-4", "own.sv:4"});
+}
+
 BOOST_AUTO_TEST_CASE(a_missing_top_gets_the_modules_that_there_are) {
   check_says(refusal(counter, "other"), {"no module 'other'", "own"});
 }
