@@ -196,7 +196,9 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
     yosys.refuse_loops();  // knows the line
     refuse(design, error.what());
   } catch (const vp::InputError& error) {
-    refuse(design, error.what());
+    std::string why = error.what();
+    yosys.name_originals(why);
+    refuse(design, why);
   }
 }
 

@@ -100,13 +100,18 @@ std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
   return names;
 }
 
+/// With a word about an error.
+bool failed(const host::CommandEnd& end) {
+  return end.exit_code != 0 && end.out.find("ERROR: ") != std::string::npos;
+}
+
 /// What is legal and Yosys 0.23 takes for an error: a format like "%2d" in what it prints while it
 /// elaborates, calls that print or end a simulation, assertions with an action.
 bool stumbled_over_simulation(const host::CommandEnd& end) {
   const auto says = [&](const char* what) { return end.out.find(what) != std::string::npos; };
-  return end.exit_code != 0 && (says("called with invalid/unsupported format specifier") ||
-                                says("Can't resolve task name `$") || says("System task `$") ||
-                                says("ERROR: syntax error"));
+  return failed(end) && (says("called with invalid/unsupported format specifier") ||
+                         says("Can't resolve task name `$") || says("System task `$") ||
+                         says("ERROR: syntax error"));
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -154,7 +159,10 @@ host::CommandEnd run_in(const fs::path& folder, const std::vector<std::string>& 
 }
 
 YosysFolder::YosysFolder(const Design& design)
-    : design_(design), includes_(include_folders(design)), sources_(design.sources) {
+    : design_(design),
+      includes_(include_folders(design)),
+      originals_(design.sources),
+      sources_(design.sources) {
   check_name(design.top, "module");
   for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
   for (const std::string& definition : design.defines) check_definition(definition);
@@ -166,6 +174,7 @@ YosysFolder::YosysFolder(const Design& design)
 host::CommandEnd YosysFolder::run(const Script& script, unsigned seconds) {
   host::require_descriptors(yosys_descriptors, "yosys");
   host::CommandEnd end = run_script(script, seconds);
+  if (failed(end) && read_only_what_is_needed()) end = run_script(script, seconds);
   if (stumbled_over_simulation(end)) {
     copy_without_simulation();
     end = run_script(script, seconds);
@@ -188,6 +197,15 @@ std::string YosysFolder::reading() const {
   return command;
 }
 
+/// A folder may have test benches, fragments to include and other designs beside what the top is
+/// made of. False: it is made of all of them.
+bool YosysFolder::read_only_what_is_needed() {
+  const std::vector<fs::path> needed = needed_by(design_.top, sources_);
+  if (needed.empty() || needed.size() == sources_.size()) return false;
+  sources_ = originals_ = needed;
+  return true;
+}
+
 /// Copies of the same lines.
 void YosysFolder::copy_without_simulation() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -207,23 +225,29 @@ void YosysFolder::refuse_endings() const {
   char colon = 0;
   std::istringstream(log.substr(found + std::string(ends_here).size())) >> source >> colon >>
       number;
-  std::istringstream lines(vp::read_text(design_.sources.at(source), "source"));
+  std::istringstream lines(vp::read_text(originals_.at(source), "source"));
   std::string line;
   for (std::size_t i = 0; i < number; ++i) std::getline(lines, line);
   synthesis::refuse(design_,
-                    design_.sources[source].string() + ":" + std::to_string(number) +
+                    originals_[source].string() + ":" + std::to_string(number) +
                         ": the RTL refuses its parameters: " + std::string(vp::trim(line)));
 }
 
 void YosysFolder::name_originals(std::string& text) const {
   for (std::size_t i = 0; i < sources_.size(); ++i)
-    replace_all(text, sources_[i].string(), design_.sources[i].string());
+    replace_all(text, sources_[i].string(), originals_[i].string());
   for (std::size_t i = 0; i < includes_.size(); ++i)
     replace_all(text, include_link(i) + "/", includes_[i].string() + "/");
 }
 
-std::string YosysFolder::place_of(const std::string& word, const std::string& name) const {
-  for (const fs::path& source : design_.sources) {
+std::string YosysFolder::place_of(const std::string& word, const std::string& name,
+                                  const std::string& module) const {
+  std::vector<fs::path> sources = originals_;
+  std::stable_partition(sources.begin(), sources.end(), [&](const fs::path& source) {
+    const std::vector<std::string> names = declared_in(vp::read_text(source, "source"));
+    return std::find(names.begin(), names.end(), module) != names.end();
+  });
+  for (const fs::path& source : sources) {
     std::istringstream lines(vp::read_text(source, "source"));
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
@@ -266,12 +290,13 @@ void YosysFolder::refuse(const host::CommandEnd& end) const {
   static const std::regex missing("Can't open include file `([^']+)'");
   std::smatch file;
   if (std::regex_search(what, file, missing)) {
-    synthesis::refuse(design_, place_of("`include", file[1]) + "no file '" + file[1].str() +
-                                   "' to include: name its folder with --include");
+    synthesis::refuse(design_, place_of("`include", file[1], design_.top) + "no file '" +
+                                   file[1].str() + "' to include: name its folder with --include");
   }
-  static const std::regex part(R"(Module `\\?([^']+)' referenced in module)");
+  static const std::regex part(
+      R"(Module `\\?([^']+)' referenced in module `(\$paramod[^\\]*\\)?\\?([^\\']+))");
   if (std::regex_search(what, file, part)) {
-    synthesis::refuse(design_, place_of(file[1], file[1]) + "no module '" + file[1].str() +
+    synthesis::refuse(design_, place_of(file[1], file[1], file[3]) + "no module '" + file[1].str() +
                                    "' in the sources: add the file that declares it");
   }
   if (what.find("Module `" + design_.top + "' not found") != std::string::npos) {

@@ -283,6 +283,18 @@ endmodule
   check_says(refusal(text, "own", {{"W", -4}}), {"'own' W=-4", "own.sv:4"});
 }
 
+// A test bench, a fragment, and a module that names the missing one as well.
+BOOST_AUTO_TEST_CASE(what_the_top_does_not_need_is_no_obstacle) {
+  kit::write_file(folder / "a_bench.v",
+                  "module bench; initial @(x) $stop; own u(); gone g(); endmodule\n");
+  kit::write_file(folder / "fragment.v", "`ifdef NEVER\n  own u();\n");
+  BOOST_TEST(synthesise(design(counter, "own"), timing).netlist.cells.ff == 8u);
+  check_says(refusal("module own(input logic a);\n\n  gone g(.a);\nendmodule\n"),
+             {"own.sv:3: no module 'gone'"});
+  kit::write_file(folder / "twice.sv", "module own(input logic a); endmodule\n");
+  check_says(refusal(counter), {"own", "Re-definition"});
+}
+
 BOOST_AUTO_TEST_CASE(a_missing_top_gets_the_modules_that_there_are) {
   check_says(refusal(counter, "other"), {"no module 'other'", "own"});
 }
@@ -301,7 +313,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_synthesised_is_refused) {
   check_says(
       refusal("module own(input logic d, output logic q);\n"
               "  IDELAYE2 #(.IDELAY_VALUE(3)) delay(.IDATAIN(d), .DATAOUT(q));\nendmodule\n"),
-      {"'IDELAYE2'", "leave it outside of the module"});
+      {"own.sv:2: 'IDELAYE2'", "leave it outside of the module"});
 }
 
 BOOST_AUTO_TEST_CASE(primitives_of_the_family_may_stand_in_the_rtl) {
