@@ -163,13 +163,21 @@ void Finder::check_notes() const {
     if (std::none_of(rtl_.ports, rtl_.ports + rtl_.port_count, belongs))
       refuse(rtl_.place, std::string("INTERFACES speaks of '") + note.port + "', and module '" +
                              rtl_.top + "' has no such port");
+    for (std::uint32_t k = 0; k < i; ++k) {
+      if (std::string(rtl_.notes[k].what) == note.what && small(rtl_.notes[k].port) == name)
+        refuse(rtl_.place, std::string("INTERFACES speaks of '") + note.port +
+                               "' twice: say all of it in one place");
+    }
     std::istringstream words(note.text);
+    std::string clock;
     for (std::string word; words >> word;) {
       if (known_words().count(word) == 0)
         refuse(rtl_.place, std::string("INTERFACES says '") + word + "' of '" + note.port +
                                "': use " +
                                vp::one_of({known_words().begin(), known_words().end()}));
-      if (word == "clock") words >> word;
+      if (word == "clock" && words >> word && !std::exchange(clock, word).empty())
+        refuse(rtl_.place, std::string("INTERFACES gives '") + note.port +
+                               "' more than one clock: each interface has one");
     }
   }
 }
@@ -314,18 +322,16 @@ void Finder::find_clock(Interface& interface) const {
     interface.clock = said;
     return;
   }
-  std::vector<std::string> best;
+  std::vector<std::string> best, associated;
   std::size_t longest = 0;
   for (const std::string& name : names) {
-    if (is_associated(name, interface.name)) {
-      interface.clock = name;
-      return;
-    }
+    if (is_associated(name, interface.name)) associated.push_back(name);
     const std::size_t common = common_length(small(name), small(interface.name));
     if (common > longest) best.clear();
     if (common >= longest) best.push_back(name);
     longest = std::max(longest, common);
   }
+  if (!associated.empty()) best = associated;
   if (best.size() == 1) interface.clock = best.front();
   const bool needs_one = interface.kind == Kind::axi4 || interface.kind == Kind::axi_lite ||
                          interface.kind == Kind::axi_stream;

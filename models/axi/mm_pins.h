@@ -56,10 +56,6 @@ class MmPins {
   void read(Wires& wires) const;
   /// Shows it what it samples.
   void write(const Wires& wires) const;
-  /// Bits of an address that the RTL has no pins for.
-  std::uint64_t beyond(std::uint64_t address) const {
-    return shape_.address_bits >= 64 ? 0 : address >> shape_.address_bits;
-  }
 
  private:
   struct AddressPins {

@@ -7,6 +7,7 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
+#include <vp/report.h>
 #include <vp/text.h>
 
 namespace axi {
@@ -55,6 +56,7 @@ tlm::tlm_response_status TlmToPins::objection(const tlm::tlm_generic_payload& pa
 void TlmToPins::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   const tlm::tlm_response_status refused = objection(payload);
   if (refused != tlm::TLM_OK_RESPONSE) return payload.set_response_status(refused);
+  check_address(payload);
   vp::ClockScheduler& scheduler = clock_.scheduler();
   scheduler.pass_until(scheduler.now_ps() + vp::to_ps(delay));
   delay = sc_core::SC_ZERO_TIME;
@@ -79,6 +81,19 @@ void TlmToPins::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time&
                               : request.response == Response::slverr
                                   ? tlm::TLM_GENERIC_ERROR_RESPONSE
                                   : tlm::TLM_OK_RESPONSE);
+}
+
+// As on the chip, where the window of a slave may be larger than what it decodes.
+void TlmToPins::check_address(const tlm::tlm_generic_payload& payload) {
+  const std::uint64_t address = payload.get_address();
+  const unsigned bytes = std::min(payload.get_data_length(), payload.get_streaming_width());
+  if (warned_ || shape_.beyond(address + (bytes - 1)) == 0) return;
+  warned_ = true;
+  vp::warn(*this, "/markervp/axi/address_bits",
+           std::to_string(bytes) + " bytes from " + vp::hex(address) +
+               " of its window: the RTL has " + std::to_string(shape_.address_bits) +
+               " address bits and does not see the upper ones, so this is another register or "
+               "memory word of it");
 }
 
 void TlmToPins::wait_for(Request& request) {

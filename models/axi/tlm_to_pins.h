@@ -22,8 +22,9 @@ namespace axi {
 /// An access within one word has the size of what it touches; one over several words reads whole
 /// words. Least times: a read of n beats passes on clocks 2 to n + 1 behind the first edge at or
 /// after its delay, a write is answered on clock n + 1. b_transport returns when the last response
-/// has passed; the worst one of all beats is the answer, DECERR as TLM_ADDRESS_ERROR_RESPONSE and
-/// SLVERR as TLM_GENERIC_ERROR_RESPONSE.
+/// has passed; an address of more bits than there are pins loses them, with a warning. The worst
+/// one of all beats is the answer, DECERR as TLM_ADDRESS_ERROR_RESPONSE and SLVERR as
+/// TLM_GENERIC_ERROR_RESPONSE.
 ///
 /// The owner calls sample() before an edge of the clock and drive() behind it.
 class TlmToPins final : public sc_core::sc_module {
@@ -75,6 +76,7 @@ class TlmToPins final : public sc_core::sc_module {
   void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   bool get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi);
   tlm::tlm_response_status objection(const tlm::tlm_generic_payload& payload) const;
+  void check_address(const tlm::tlm_generic_payload& payload);
   void wait_for(Request& request);
   [[noreturn]] void report_hang(const Request& request) const;
   std::vector<Burst> split(Request& request) const;
@@ -95,6 +97,7 @@ class TlmToPins final : public sc_core::sc_module {
   std::deque<Burst> aw_, w_, b_, ar_, r_;  ///< bursts that wait for each channel, oldest first
   unsigned w_beat_ = 0, r_beat_ = 0;       ///< of the oldest one
   unsigned open_ = 0;                      ///< requests
+  bool warned_ = false;                    ///< of addresses beyond its pins
 };
 
 }  // namespace axi

@@ -33,6 +33,11 @@ struct Shape {
   unsigned address_bits = 32;        ///< pins of AxADDR
   unsigned burst_beats = 256;        ///< most beats of an INCR burst: 1 for Lite, 16 for AXI3
   bool reads = true, writes = true;  ///< which of the two halves it has
+
+  /// Bits of an address that it has no pins for.
+  std::uint64_t beyond(std::uint64_t address) const {
+    return address_bits >= 64 ? 0 : address >> address_bits;
+  }
 };
 
 /// One beat's request on AW or AR.

@@ -96,6 +96,7 @@ constexpr RuleInfo rules[] = {
     {"TLM2_DMI_HINT", "a payload leaves with its DMI hint cleared"},
     {"TLM2_DMI_RANGE", "direct access is granted for a range with the address that was asked for"},
     {"BRAM_ADDRESS", "an address at a port lies in the memory"},
+    {"BRAM_COLLISION", "no port writes what the other one accesses on the same edge"},
     {"RESET_WIDTH", "a reset of RTL lasts for the 16 clocks that AMD's IP need"},
     {"RESET_DOMAIN", "a reset of RTL ends on an edge of the clock that it belongs to"},
     {"CLOCK_CROSSING",

@@ -230,6 +230,13 @@ bool SensorFrames::reads() {
   return running_;
 }
 
+bool SensorFrames::reads_now(std::uint32_t first, std::uint32_t count) {
+  const std::uint64_t now = clock().scheduler().now_ps();
+  if (!reads() || edges_before_now() + 1 < first_cycle()) return false;
+  const std::uint32_t next = sent();
+  return next < pixels_ && next - first < count && clock().edge_at_or_after(now) == now;
+}
+
 void SensorFrames::before_write(std::uint32_t first, std::uint32_t) {
   if (forked_ || !reads() || first >= sent()) return;
   kept_ = bram_->fork();

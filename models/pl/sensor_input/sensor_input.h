@@ -30,6 +30,7 @@ class SensorFrames : public GreyFrames, private xilinx::Bram::Reader {
 
  private:
   bool reads() override;
+  bool reads_now(std::uint32_t first, std::uint32_t count) override;
   void before_write(std::uint32_t first, std::uint32_t count) override;
   void after_write(std::uint32_t first, std::uint32_t count) override;
   std::uint64_t edges_before_now() const;

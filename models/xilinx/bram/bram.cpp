@@ -100,10 +100,19 @@ std::vector<std::uint8_t> Bram::fork() {
 
 void Bram::store(std::uint32_t address, const std::uint32_t* words, std::uint32_t count) {
   const std::uint32_t first = address * word_bytes;
-  if (reader_) reader_->before_write(first, count * word_bytes);
+  if (reader_) {
+    if (reader_->reads_now(first, count * word_bytes)) report_collision(address, count);
+    reader_->before_write(first, count * word_bytes);
+  }
   writes_a.add(count);
   std::memcpy(&bytes_[first], words, std::size_t{count} * word_bytes);
   if (reader_) reader_->after_write(first, count * word_bytes);
+}
+
+void Bram::report_collision(std::uint32_t address, std::uint32_t count) {
+  reports_.violate(vp::Rule::bram_collision, nullptr,
+                   "port B reads from word " + vp::hex(address) + " on, of which port A writes " +
+                       std::to_string(count));
 }
 
 void Bram::refuse_write(std::uint32_t address) {

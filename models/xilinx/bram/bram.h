@@ -23,7 +23,9 @@ double block_ram_36(std::uint64_t depth, std::uint32_t width, bool parity = true
 /// so the leftmost pixel of a word is in bits 7:0.
 ///
 /// A plain memory: the module at port B models its latency of one clock. An access out of range is
-/// a fault of the module at the port: it breaks a rule, a write is dropped, a read returns 0.
+/// a fault of the module at the port: it breaks a rule, a write is dropped, a read returns 0. So is
+/// a write to the word that port B reads on the same edge: on the chip what is read is unknown
+/// (UG473, address collision), here it is what is written.
 class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::sc_interface {
  public:
   /// A model at port B that reads many bytes at once: called for accesses of port A.
@@ -32,6 +34,8 @@ class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::s
     virtual ~Reader() = default;
     /// Whether it looks at the memory now, so that words must come at their own times.
     virtual bool reads() = 0;
+    /// Whether it reads one of the bytes `first` to `first` + `count` - 1 at this instant.
+    virtual bool reads_now(std::uint32_t first, std::uint32_t count) = 0;
     /// Bytes `first` to `first` + `count` - 1 are about to be written.
     virtual void before_write(std::uint32_t first, std::uint32_t count) = 0;
     /// They were written.
@@ -90,6 +94,7 @@ class Bram : public sc_core::sc_module, public vp::Ip, public virtual sc_core::s
   void end_of_simulation() override { reports_.finish(); }
   vp::IpEstimate own_estimate() const override;
   void store(std::uint32_t address, const std::uint32_t* words, std::uint32_t count);
+  void report_collision(std::uint32_t address, std::uint32_t count);
   void refuse_write(std::uint32_t address);
   std::uint8_t refuse_read(std::uint32_t address);
 

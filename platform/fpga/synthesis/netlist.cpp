@@ -102,9 +102,9 @@ class Graph {
     }
     if (order.size() == bits_.size()) return order;
     const auto on_loop = std::find_if(open.begin(), open.end(), [](unsigned n) { return n > 0; });
-    throw vp::InputError("a combinational loop goes through '" +
-                         name_of(static_cast<unsigned>(on_loop - open.begin())) +
-                         "': put a register into it");
+    throw LoopError("a combinational loop goes through '" +
+                    name_of(static_cast<unsigned>(on_loop - open.begin())) +
+                    "': put a register into it");
   }
 
   /// The fan-outs that there are. 0 represents a path that never leaves its slice.
@@ -303,17 +303,26 @@ class Graph {
       case Kind::outside:
         break;
       case Kind::unknown:
-        refuse(type);
+        refuse(type, place_of(cell));
     }
   }
 
-  /// A cell of Yosys, or a primitive; one with parameters is called $paramod\NAME\...
-  [[noreturn]] static void refuse(std::string type) {
-    if (starts_with(type, "$paramod\\")) {
+  /// "file:line: " from "file:line.column-line.column|…"; "" if that is not known.
+  static std::string place_of(const Json& cell) {
+    const auto attributes = cell.find("attributes");
+    if (attributes == cell.end() || !attributes->contains("src")) return {};
+    const std::string src = attributes->at("src");
+    return src.substr(0, src.find('.', src.rfind(':', src.find('|')))) + ": ";
+  }
+
+  /// A cell of Yosys, or a primitive; one with parameters is called $paramod\NAME\... or
+  /// $paramod$...\NAME.
+  [[noreturn]] static void refuse(std::string type, const std::string& place) {
+    if (starts_with(type, "$paramod")) {
       type.erase(0, type.find('\\') + 1);
       type.erase(std::min(type.find('\\'), type.size()));
     }
-    throw vp::InputError("'" + type +
+    throw vp::InputError(place + "'" + type +
                          "' is left after synthesis, and how long it takes is not known: " +
                          (type[0] == '$' ? "write it so that it can be synthesised"
                                          : "leave it outside of the module"));

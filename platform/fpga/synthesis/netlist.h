@@ -9,6 +9,7 @@
 
 #include <fpga/synthesis/clocks.h>
 #include <fpga/synthesis/path_timing.h>
+#include <vp/error.h>
 
 /// What Yosys makes of RTL for the 7 series: `synth_xilinx -flatten -abc9`, then `write_json`.
 namespace platform::synthesis {
@@ -48,8 +49,13 @@ struct Netlist {
   std::optional<Fmax> fmax(const PathTiming& timing) const;
 };
 
+/// A combinational loop, named by a signal on it.
+struct LoopError : vp::InputError {
+  using InputError::InputError;
+};
+
 /// Reads the module `top`. Throws vp::InputError: no such file or module, a cell
-/// whose delay is not known, a combinational loop (named by a signal on it).
+/// whose delay is not known; LoopError.
 Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
                      const PathTiming& timing);
 

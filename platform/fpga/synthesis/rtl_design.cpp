@@ -77,7 +77,7 @@ bool has_parameter(const Design& design, const std::string& name) {
 
 std::vector<fs::path> needed_by(const std::string& top, const std::vector<fs::path>& sources) {
   static const std::regex word(R"([A-Za-z_]\w*)");
-  std::map<std::string, std::size_t> declares;  // by name, the source
+  std::multimap<std::string, std::size_t> declares;  // by name, the source
   std::vector<std::string> texts;
   for (const fs::path& source : sources) {
     texts.push_back(code_of(source));
@@ -87,12 +87,14 @@ std::vector<fs::path> needed_by(const std::string& top, const std::vector<fs::pa
   std::vector<std::string> open{top};
   std::set<std::size_t> needed;
   while (!open.empty()) {
-    const auto found = declares.find(open.back());
+    const auto [first, last] = declares.equal_range(open.back());
     open.pop_back();
-    if (found == declares.end() || !needed.insert(found->second).second) continue;
-    const std::string& text = texts[found->second];
-    for (std::sregex_iterator m(text.begin(), text.end(), word), end; m != end; ++m)
-      open.push_back(m->str());
+    for (auto found = first; found != last; ++found) {
+      if (!needed.insert(found->second).second) continue;
+      const std::string& text = texts[found->second];
+      for (std::sregex_iterator m(text.begin(), text.end(), word), end; m != end; ++m)
+        open.push_back(m->str());
+    }
   }
   std::vector<fs::path> found;
   found.reserve(needed.size());

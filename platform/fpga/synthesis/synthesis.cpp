@@ -178,8 +178,10 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
   host::CommandEnd end = run(Mapper::abc9);
   const bool fell_back = crashed(end);
   if (fell_back) end = run(Mapper::abc);
-  yosys.refuse_loops();
-  if (end.exit_code != 0) yosys.refuse(end);
+  if (end.exit_code != 0) {
+    yosys.refuse_loops();
+    yosys.refuse(end);
+  }
   try {
     Figures figures{design.ip, design.parameters, hashes_of(design),
                     read_netlist(yosys / netlist_file, design.top, timing), design.own};
@@ -190,8 +192,13 @@ Figures synthesise(const Design& design, const PathTiming& timing) {
           "what the other would make shorter");
     }
     return figures;
-  } catch (const vp::InputError& error) {
+  } catch (const LoopError& error) {
+    yosys.refuse_loops();  // knows the line
     refuse(design, error.what());
+  } catch (const vp::InputError& error) {
+    std::string why = error.what();
+    yosys.name_originals(why);
+    refuse(design, why);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include <fpga/synthesis/simulation_text.h>
 #include <host/document.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -18,7 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *script_file = "script.ys", *instance_file = "instance.v",
-                     *check_log = "check.txt";
+                     *check_log = "check.txt", *elaboration_log = "elaboration.txt";
+
+/// What a copy of a source prints where the source ends a simulation, before source and line.
+constexpr const char* ends_here = "markervp: ends at ";
+
+/// The commands behind it are looked at for what they print. (`tee` takes no name with a space in
+/// it: the file lies where Yosys runs.)
+constexpr const char* note_elaboration = "tee -q -o elaboration.txt ";
 
 /// That Yosys and its ABC have open at once, besides the standard ones.
 constexpr int yosys_descriptors = 9;
@@ -92,11 +100,18 @@ std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
   return names;
 }
 
-/// Yosys prints what a $display says while it elaborates, and knows no widths in its formats:
-/// "%2d".
-bool stumbled_over_a_format(const host::CommandEnd& end) {
-  return end.exit_code != 0 &&
-         end.out.find("called with invalid/unsupported format specifier") != std::string::npos;
+/// With a word about an error.
+bool failed(const host::CommandEnd& end) {
+  return end.exit_code != 0 && end.out.find("ERROR: ") != std::string::npos;
+}
+
+/// What is legal and Yosys 0.23 takes for an error: a format like "%2d" in what it prints while it
+/// elaborates, calls that print or end a simulation, assertions with an action.
+bool stumbled_over_simulation(const host::CommandEnd& end) {
+  const auto says = [&](const char* what) { return end.out.find(what) != std::string::npos; };
+  return failed(end) && (says("called with invalid/unsupported format specifier") ||
+                         says("Can't resolve task name `$") || says("System task `$") ||
+                         says("ERROR: syntax error"));
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -124,12 +139,12 @@ void refuse(const Design& design, const std::string& why) {
 std::string elaboration_of(const Design& design) {
   // `-chparam` knows no sign, so one below zero comes from an instance, which goes again.
   if (has_negative(design.parameters)) {
-    return std::string("read_verilog ") + instance_file +
-           "\nhierarchy -check -top markervp_instance\ndelete markervp_instance\n"
+    return std::string("read_verilog ") + instance_file + "\n" + note_elaboration +
+           "hierarchy -check -top markervp_instance\ndelete markervp_instance\n"
            "hierarchy -auto-top\nrename -top " +
            design.top;
   }
-  std::string command = "hierarchy -check -top " + design.top;
+  std::string command = note_elaboration + ("hierarchy -check -top " + design.top);
   for (const auto& [name, value] : design.parameters)
     command += fmt::format(" -chparam {} {}", name, value);
   return command;
@@ -144,7 +159,10 @@ host::CommandEnd run_in(const fs::path& folder, const std::vector<std::string>& 
 }
 
 YosysFolder::YosysFolder(const Design& design)
-    : design_(design), includes_(include_folders(design)), sources_(design.sources) {
+    : design_(design),
+      includes_(include_folders(design)),
+      originals_(design.sources),
+      sources_(design.sources) {
   check_name(design.top, "module");
   for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
   for (const std::string& definition : design.defines) check_definition(definition);
@@ -156,9 +174,11 @@ YosysFolder::YosysFolder(const Design& design)
 host::CommandEnd YosysFolder::run(const Script& script, unsigned seconds) {
   host::require_descriptors(yosys_descriptors, "yosys");
   host::CommandEnd end = run_script(script, seconds);
-  if (stumbled_over_a_format(end)) {
-    copy_without_format_widths();
+  if (failed(end) && read_only_what_is_needed()) end = run_script(script, seconds);
+  if (stumbled_over_simulation(end)) {
+    copy_without_simulation();
     end = run_script(script, seconds);
+    refuse_endings();
   }
   name_originals(end.out);
   return end;
@@ -177,29 +197,57 @@ std::string YosysFolder::reading() const {
   return command;
 }
 
+/// A folder may have test benches, fragments to include and other designs beside what the top is
+/// made of. False: it is made of all of them.
+bool YosysFolder::read_only_what_is_needed() {
+  const std::vector<fs::path> needed = needed_by(design_.top, sources_);
+  if (needed.empty() || needed.size() == sources_.size()) return false;
+  sources_ = originals_ = needed;
+  return true;
+}
+
 /// Copies of the same lines.
-void YosysFolder::copy_without_format_widths() {
-  static const std::regex width(R"((%)[0-9]+([a-zA-Z]))");
+void YosysFolder::copy_without_simulation() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    std::istringstream lines(vp::read_text(sources_[i], "source"));
-    std::string text;
-    for (std::string line; std::getline(lines, line); text += line + "\n") {
-      if (line.find('$') != line.npos) line = std::regex_replace(line, width, "$1$2");
-    }
+    const std::string text = vp::read_text(sources_[i], "source");
     sources_[i] = scratch_ / (std::to_string(i) + "_" + sources_[i].filename().string());
-    vp::write_file(sources_[i].string(), text);
+    vp::write_file(sources_[i].string(),
+                   without_simulation(text, ends_here + std::to_string(i) + ":"));
   }
+}
+
+/// Elaboration has come to a call that ends a simulation.
+void YosysFolder::refuse_endings() const {
+  const std::string log = log_of(scratch_ / elaboration_log);
+  const std::size_t found = log.find(ends_here);
+  if (found == std::string::npos) return;
+  std::size_t source = 0, number = 0;
+  char colon = 0;
+  std::istringstream(log.substr(found + std::string(ends_here).size())) >> source >> colon >>
+      number;
+  std::istringstream lines(vp::read_text(originals_.at(source), "source"));
+  std::string line;
+  for (std::size_t i = 0; i < number; ++i) std::getline(lines, line);
+  synthesis::refuse(design_,
+                    originals_[source].string() + ":" + std::to_string(number) +
+                        ": the RTL refuses its parameters: " + std::string(vp::trim(line)));
 }
 
 void YosysFolder::name_originals(std::string& text) const {
   for (std::size_t i = 0; i < sources_.size(); ++i)
-    replace_all(text, sources_[i].string(), design_.sources[i].string());
+    replace_all(text, sources_[i].string(), originals_[i].string());
   for (std::size_t i = 0; i < includes_.size(); ++i)
     replace_all(text, include_link(i) + "/", includes_[i].string() + "/");
 }
 
-std::string YosysFolder::place_of(const std::string& word, const std::string& name) const {
-  for (const fs::path& source : design_.sources) {
+std::string YosysFolder::place_of(const std::string& word, const std::string& name,
+                                  const std::string& module) const {
+  std::vector<fs::path> sources = originals_;
+  std::stable_partition(sources.begin(), sources.end(), [&](const fs::path& source) {
+    const std::vector<std::string> names = declared_in(vp::read_text(source, "source"));
+    return std::find(names.begin(), names.end(), module) != names.end();
+  });
+  for (const fs::path& source : sources) {
     std::istringstream lines(vp::read_text(source, "source"));
     std::size_t number = 0;
     for (std::string line; std::getline(lines, line);) {
@@ -212,7 +260,8 @@ std::string YosysFolder::place_of(const std::string& word, const std::string& na
 }
 
 void YosysFolder::refuse_loops() const {
-  const std::string check = log_of(scratch_ / check_log);
+  std::string check = log_of(scratch_ / check_log);
+  name_originals(check);
   const std::size_t loop = check.find("found logic loop");
   if (loop == std::string::npos) return;
   static const std::regex place(R"(([^\s$|]+:\d+))");
@@ -241,12 +290,13 @@ void YosysFolder::refuse(const host::CommandEnd& end) const {
   static const std::regex missing("Can't open include file `([^']+)'");
   std::smatch file;
   if (std::regex_search(what, file, missing)) {
-    synthesis::refuse(design_, place_of("`include", file[1]) + "no file '" + file[1].str() +
-                                   "' to include: name its folder with --include");
+    synthesis::refuse(design_, place_of("`include", file[1], design_.top) + "no file '" +
+                                   file[1].str() + "' to include: name its folder with --include");
   }
-  static const std::regex part(R"(Module `\\?([^']+)' referenced in module)");
+  static const std::regex part(
+      R"(Module `\\?([^']+)' referenced in module `(\$paramod[^\\]*\\)?\\?([^\\']+))");
   if (std::regex_search(what, file, part)) {
-    synthesis::refuse(design_, place_of(file[1], file[1]) + "no module '" + file[1].str() +
+    synthesis::refuse(design_, place_of(file[1], file[1], file[3]) + "no module '" + file[1].str() +
                                    "' in the sources: add the file that declares it");
   }
   if (what.find("Module `" + design_.top + "' not found") != std::string::npos) {

@@ -30,8 +30,11 @@ class YosysFolder {
 
   std::filesystem::path operator/(const std::string& name) const { return scratch_ / name; }
 
-  /// The command of a script behind which refuse_loops() knows of combinational loops. (`tee` takes
-  /// no name with a space in it: the file lies where Yosys runs.)
+  /// In a text of Yosys' the design's own files instead of links and copies.
+  void name_originals(std::string& text) const;
+
+  /// The command of a script behind which refuse_loops() knows of combinational loops: those of
+  /// words. Bit by bit some of them are none.
   static constexpr const char* check = "tee -q -o check.txt check";
   /// Throws vp::InputError with file and line if there is one.
   void refuse_loops() const;
@@ -42,15 +45,19 @@ class YosysFolder {
  private:
   host::CommandEnd run_script(const Script& script, unsigned seconds) const;
   std::string reading() const;
-  void copy_without_format_widths();
-  void name_originals(std::string& text) const;
-  /// "file:line: " of the first line with both; "" without one.
-  std::string place_of(const std::string& word, const std::string& name) const;
+  bool read_only_what_is_needed();
+  void copy_without_simulation();
+  void refuse_endings() const;
+  /// "file:line: " of the first line with both, of those that declare the module if there is one
+  /// in them; "" without one.
+  std::string place_of(const std::string& word, const std::string& name,
+                       const std::string& module) const;
 
   const Design& design_;
   const host::ScratchFolder scratch_{"synth"};
   const std::vector<std::filesystem::path> includes_;  ///< each has a link in the folder
-  std::vector<std::filesystem::path> sources_;         ///< the design's, or copies of them
+  std::vector<std::filesystem::path> originals_;       ///< the design's, or those that it needs
+  std::vector<std::filesystem::path> sources_;         ///< these, or copies of them
 };
 
 /// The commands that make the top with its parameters of what was read. The top's name stays.

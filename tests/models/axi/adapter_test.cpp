@@ -4,9 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include <vp/configuration.h>
+#include <vp/report.h>
 
 #include "adapter_bench.h"
 
@@ -193,6 +196,32 @@ BOOST_FIXTURE_TEST_CASE(what_is_no_access_never_moves_the_pins, Bench) {
     BOOST_TEST(kit::now_ps() == 0u);
   });
   BOOST_TEST(requests.empty());
+}
+
+namespace {
+
+struct FewAddressBits : Bench {
+  static axi::Shape shape() {
+    axi::Shape shape;
+    shape.address_bits = 6;
+    return shape;
+  }
+  FewAddressBits() : Bench(shape()) { reports.redirect(text); }
+  vp::ReportRouter reports;
+  std::ostringstream text;
+};
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_CASE(an_address_beyond_its_pins_is_warned_of_once, FewAddressBits) {
+  software.simulate([&] {
+    access(reading, 0x3C, buffer.data(), 4);
+    BOOST_TEST(reports.count("/markervp/axi/address_bits") == 0u);
+    access(reading, 0x3C, buffer.data(), 8);
+    access(reading, 0x40, buffer.data(), 4);
+  });
+  BOOST_TEST(reports.count("/markervp/axi/address_bits") == 1u);
+  BOOST_TEST(text.str().find("8 bytes from 0x0000003C") != std::string::npos, text.str());
 }
 
 BOOST_FIXTURE_TEST_CASE(lite_has_single_words_one_behind_the_other, Lite) {

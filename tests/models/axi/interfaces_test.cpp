@@ -175,6 +175,21 @@ BOOST_AUTO_TEST_CASE(an_interface_of_two_clocks_is_asked_for) {
   check_says(Module({"i s_tdata 32", "i s_tvalid"}).refusal(), {"has no clock"});
 }
 
+BOOST_AUTO_TEST_CASE(two_clocks_for_one_interface_are_refused) {
+  Module both({"i a_clk", "i b_clk", "i s_tdata 32", "i s_tvalid"});
+  both.note("parameter", "a_clk", "ASSOCIATED_BUSIF s")
+      .note("parameter", "b_clk", "ASSOCIATED_BUSIF s");
+  check_says(both.refusal(), {"'s'", "a_clk", "b_clk", "clock <port>"});
+  both.note("interface", "s", "clock b_clk");
+  BOOST_TEST(both.text() == "clock a_clk in; clock b_clk in; AXI4-Stream s in b_clk");
+  both.note("interface", "S", "clock a_clk");
+  check_says(both.refusal(), {"'S' twice"});
+  check_says(Module({"i a_clk", "i b_clk", "i s_tdata 32", "i s_tvalid"})
+                 .note("interface", "s", "clock a_clk clock b_clk")
+                 .refusal(),
+             {"'s' more than one clock"});
+}
+
 BOOST_AUTO_TEST_CASE(notes_about_nothing_are_refused) {
   check_says(Module({"i clk"}).note("interface", "q", "wire").refusal(), {"'q'", "no such port"});
   check_says(Module({"i clk"}).note("interface", "clk", "watch").refusal(),

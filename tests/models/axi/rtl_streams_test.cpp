@@ -10,6 +10,7 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <axi/rtl_part.h>
@@ -112,6 +113,58 @@ BOOST_FIXTURE_TEST_CASE(a_narrow_stream_takes_its_width_from_the_rtl, kit::Simul
     BOOST_TEST(sink.beats[i].last == (i == 8));
   }
   BOOST_TEST(out.bytes() == 1u);
+}
+
+namespace {
+
+/// Words that went wrong between a clock of `from` and one of `to` Hz, with a sink that pauses, and
+/// the edge of the latter that passes the first one.
+struct Crossed {
+  unsigned wrong = 0;
+  std::uint64_t first = 0;
+  std::uint64_t rules_broken = 0;
+};
+Crossed cross(std::uint64_t from, std::uint64_t to) {
+  constexpr std::uint32_t count = 1000;
+  const kit::Simulation simulation;
+  vp::ReportRouter reports;
+  std::ostringstream text;
+  reports.redirect(text);
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock s_clk("s_clk", scheduler, from), m_clk("m_clk", scheduler, to);
+  axi::RtlPart part("part", MARKERVP_CROSSING_RTL,
+                    {{"s_axis_aclk", &s_clk}, {"m_axis_aclk", &m_clk}});
+  vp::StreamSource source("source", s_clk);
+  vp::StreamSink sink("sink", m_clk);
+  vp::AxiStream in("in"), out("out");
+  source.m_axis(in);
+  part.stream_in("s_axis")(in);
+  part.stream_out("m_axis")(out);
+  sink.s_axis(out);
+  sink.ready_on = [](std::uint64_t cycle) { return cycle % 5 != 0; };
+  for (std::uint32_t i = 0; i < count; ++i) source.send(i * 0x0101'0101u, i % 7 == 6);
+  sc_core::sc_start(sc_core::sc_time(60, sc_core::SC_US));
+  Crossed crossed;
+  BOOST_REQUIRE(sink.beats.size() == count);
+  for (std::uint32_t i = 0; i < count; ++i)
+    crossed.wrong += sink.beats[i].data != i * 0x0101'0101u || sink.beats[i].last != (i % 7 == 6);
+  crossed.first = sink.beats.front().cycle;
+  crossed.rules_broken = reports.warnings().size();
+  BOOST_TEST(text.str().find("rule") == std::string::npos, text.str());
+  return crossed;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_fifo_has_a_stream_on_each_of_its_two_clocks) {
+  for (const auto& [from, to, first] : {std::tuple{100'000'000u, 77'000'000u, 4u},
+                                        {77'000'000u, 100'000'000u, 5u},
+                                        {100'000'000u, 100'000'000u, 5u}}) {
+    const Crossed crossed = cross(from, to);
+    BOOST_TEST(crossed.wrong == 0u);
+    BOOST_TEST(crossed.rules_broken == 0u);
+    BOOST_TEST(crossed.first == first);
+  }
 }
 
 BOOST_FIXTURE_TEST_CASE(ends_of_other_widths_are_refused_and_both_named, Bench) {

@@ -1,7 +1,11 @@
 // From the stream of the DMA into the BRAM.
 #include <pl/common/known_frames.h>
 #include <pl/control_block/control_block.h>
+#include <vp/report.h>
 #include <boost/test/unit_test.hpp>
+
+#include <sstream>
+#include <string>
 
 #include "pipeline.h"
 
@@ -52,6 +56,21 @@ std::vector<harness::Word> words_of_two_frames(const Image& picture) {
     s.run_for(s.driver.hold_ps);
   }
   return words;
+}
+
+/// Whether an edge reads and writes one word while a frame plays and, from `clock` on, words come
+/// into the memory from its start on: a digit for each clock.
+char collides(unsigned clock) {
+  vp::ReportRouter reports;
+  std::ostringstream text;
+  reports.redirect(text);
+  Store s;
+  s.load(s.image);
+  s.raise_ena();
+  s.run_to_clock(clock);
+  s.driver.control(control_packet::ena | control_packet::wr_en);
+  s.run_to_clock(s.clocks_of_a_frame());
+  return reports.count("/markervp/rule/BRAM_COLLISION") == 0 ? '0' : '1';
 }
 
 struct RememberFrames {
@@ -161,6 +180,14 @@ BOOST_AUTO_TEST_CASE(pictures_that_were_seen_before_give_the_same_words) {
       BOOST_TEST((words_of_two_frames(pictures[i]) == expected[i]), "seen a moment ago");
     }
   }
+}
+
+// Eight bytes are written while one is read, so the store comes past the sensor: at a distance of
+// seven bytes for each clock that both go on, the words of four of them are met on one edge.
+BOOST_AUTO_TEST_CASE(a_word_that_is_written_while_it_is_read_breaks_a_rule) {
+  std::string met;
+  for (unsigned clock = 40; clock < 54; ++clock) met += collides(clock);
+  BOOST_TEST(met == "00011110001111");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

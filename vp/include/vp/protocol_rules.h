@@ -93,6 +93,7 @@ enum class Rule : unsigned {
   tlm_dmi_hint,
   tlm_dmi_range,
   bram_address,
+  bram_collision,
   reset_width,
   reset_domain,
   clock_crossing,

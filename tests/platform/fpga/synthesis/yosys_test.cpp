@@ -240,6 +240,61 @@ BOOST_AUTO_TEST_CASE(a_combinational_loop_is_named_with_its_line) {
              {"own.sv:2", "loop"});
 }
 
+// Each bit depends on those before it: a loop of words, and none of bits.
+BOOST_AUTO_TEST_CASE(the_first_of_several_bits_is_no_loop) {
+  const std::string text = R"(module own #(parameter W = 4) (
+  input logic clk, input logic [W-1:0] d, output logic [W-1:0] q);
+  wire [W-1:0] first;
+  for (genvar i = 0; i < W; i++) begin : g
+    assign first[i] = d[i] & ~|(first & ({W{1'b1}} >> (W - i)));
+  end
+  always_ff @(posedge clk) q <= first;
+endmodule
+)";
+  BOOST_TEST(synthesise(design(text, "own"), timing).netlist.cells.ff == 4u);
+}
+
+BOOST_AUTO_TEST_CASE(warnings_and_assertions_are_no_obstacle) {
+  const std::string text = R"(module own (input logic clk, d, output logic q);
+  initial begin $timeformat(-9, 0, " ns", 8); $warning("small"); end
+  always_ff @(posedge clk) begin
+    q <= d;
+    if (d) $error("d is %2d", d);
+    assert (d) else $error("no d");
+  end
+endmodule
+)";
+  BOOST_TEST(synthesise(design(text, "own"), timing).netlist.cells.ff == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(parameters_that_the_rtl_refuses_are_refused_with_its_line) {
+  const std::string text = R"(module own #(parameter W = 8) (input logic a, output logic b);
+  initial begin
+    if (W < 8) begin
+      $error("narrow");
+      $finish;
+    end
+  end
+  assign b = a;
+endmodule
+)";
+  BOOST_TEST(refusal(text) == "");
+  check_says(refusal(text, "own", {{"W", 4}}), {"'own' W=4", "own.sv:4", "$error(\"narrow\");"});
+  check_says(refusal(text, "own", {{"W", -4}}), {"'own' W=-4", "own.sv:4"});
+}
+
+// A test bench, a fragment, and a module that names the missing one as well.
+BOOST_AUTO_TEST_CASE(what_the_top_does_not_need_is_no_obstacle) {
+  kit::write_file(folder / "a_bench.v",
+                  "module bench; initial @(x) $stop; own u(); gone g(); endmodule\n");
+  kit::write_file(folder / "fragment.v", "`ifdef NEVER\n  own u();\n");
+  BOOST_TEST(synthesise(design(counter, "own"), timing).netlist.cells.ff == 8u);
+  check_says(refusal("module own(input logic a);\n\n  gone g(.a);\nendmodule\n"),
+             {"own.sv:3: no module 'gone'"});
+  kit::write_file(folder / "twice.sv", "module own(input logic a); endmodule\n");
+  check_says(refusal(counter), {"own", "Re-definition"});
+}
+
 BOOST_AUTO_TEST_CASE(a_missing_top_gets_the_modules_that_there_are) {
   check_says(refusal(counter, "other"), {"no module 'other'", "own"});
 }
@@ -258,7 +313,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_synthesised_is_refused) {
   check_says(
       refusal("module own(input logic d, output logic q);\n"
               "  IDELAYE2 #(.IDELAY_VALUE(3)) delay(.IDATAIN(d), .DATAOUT(q));\nendmodule\n"),
-      {"'IDELAYE2'", "leave it outside of the module"});
+      {"own.sv:2: 'IDELAYE2'", "leave it outside of the module"});
 }
 
 BOOST_AUTO_TEST_CASE(primitives_of_the_family_may_stand_in_the_rtl) {
