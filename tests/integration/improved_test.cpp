@@ -91,17 +91,21 @@ int grey_of_marker(int id, int x, int y, int side) {
 
 const Arguments scenes{"demo", "squares15", "roll30", "front7", "z4.5", "z0.5"};
 
+/// A picture whose markers 0 to 7 are on a board of four columns.
+Arguments of_board(Arguments picture) {
+  for (const char* setting : {"sw.board=grid", "sw.board_columns=4", "sw.board_rows=2",
+                              "sw.marker_side=0.1 m", "sw.board_gap=0.1 m"})
+    picture = with(picture, setting);
+  return picture;
+}
+
 /// Eight markers of 60 px, 60 px apart, seen from the front.
 Arguments board_in(const kit::TemporaryFolder& folder) {
-  Arguments board{picture_in(folder, "board", [](int x, int y) {
+  return of_board({picture_in(folder, "board", [](int x, int y) {
     const int u = x - 80, v = y - 120;
     if (u < 0 || u >= 480 || v < 0 || v >= 240) return 220;
     return grey_of_marker(u / 120 + v / 120 * 4, u % 120, v % 120, 60);
-  })};
-  for (const char* setting : {"sw.board=grid", "sw.board_columns=4", "sw.board_rows=2",
-                              "sw.marker_side=0.1 m", "sw.board_gap=0.1 m"})
-    board = with(board, setting);
-  return board;
+  })});
 }
 
 }  // namespace
@@ -416,6 +420,17 @@ BOOST_AUTO_TEST_CASE(a_board_has_one_pose) {
   BOOST_TEST(std::abs(double(place[1]) - (120 - 240) * metres) < 1e-4);
   BOOST_TEST(std::abs(double(place[2]) - depth) < 1e-3);
   BOOST_TEST(!run_of({"demo"})["frames"][0].contains("board"));
+}
+
+BOOST_AUTO_TEST_CASE(of_two_boards_in_view_neither_is_taken_for_the_board) {
+  const kit::TemporaryFolder folder;
+  const Json frame = run_of(of_board({picture_in(folder, "boards", [](int x, int y) {
+    return grey_of_marker(x % 320 / 80 + y / 80 % 2 * 4, x % 80 - 20, y % 80 - 20, 40);
+  })}))["frames"][0];
+  BOOST_TEST(!frame.contains("board"));
+  BOOST_TEST(frame["warnings"].dump().find(
+                 "more than one marker of ID 0, 1, 2, 3, 4, 5, 6, 7: which one is the board's") !=
+             std::string::npos);
 }
 
 // What issue and docs promise of it: all of the thesis' 41 poses and 15 squares in time, the wait

@@ -1,4 +1,5 @@
 #include "fake_hal.h"
+#include <hal/option_data.h>
 
 #include <stdexcept>
 
@@ -179,6 +180,12 @@ void hal_publish(std::uint32_t kind, const void* data, std::size_t size) {
 
 double hal_option(std::uint32_t option) {
   return state().options[option];
+}
+
+const void* hal_option_data(std::uint32_t option, std::size_t* size) {
+  const std::string& data = state().option_data[option];
+  *size = data.size();
+  return data.empty() ? nullptr : data.data();
 }
 
 std::uint32_t hal_xpar(const char* name, std::uint32_t built_in) {

@@ -54,6 +54,7 @@ struct State {
   std::vector<hal_frame> frames;
   std::size_t next_frame = 0;
   std::map<std::uint32_t, double> options;           ///< by number; the rest are 0
+  std::map<std::uint32_t, std::string> option_data;  ///< of options that name a file
   std::map<std::string, std::uint32_t> xparameters;  ///< where the design differs from the header
   std::vector<Publication> publications;
   std::string console;

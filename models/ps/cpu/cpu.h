@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <systemc>
 #include <type_traits>
 #include <utility>
@@ -49,6 +50,8 @@ class TestBench {
                        std::uint64_t now_ps) = 0;
   /// The value of the program's option number `option`.
   virtual double option(std::uint32_t option, const hal_option_info& info) = 0;
+  /// What is in the file that this option names. Valid until the run ends; empty: it names none.
+  virtual std::string_view option_data(std::uint32_t /*option*/) { return {}; }
   /// The value that xparameters.h would give `name` ("AXI_GPIO_0_BASEADDR"), if any.
   virtual std::optional<std::uint32_t> xparameter(const char* /*name*/) { return std::nullopt; }
 };
@@ -281,6 +284,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   const hal_frame* next_frame();
   void publish(std::uint32_t kind, const void* data, std::size_t size);
   double option(std::uint32_t option);
+  std::string_view option_data(std::uint32_t option);
   std::uint32_t xparameter(const char* name, std::uint32_t built_in);
   void do_work(std::uint32_t item, std::uint64_t count);
   void enter_function(std::uint32_t number);

@@ -2,6 +2,7 @@
 // they do, but for those that only make time pass (cpu_time.cpp).
 #include <hal/hal.h>
 #include <hal/native_program.h>
+#include <hal/option_data.h>
 
 #include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
@@ -135,6 +136,16 @@ double Cpu::option(std::uint32_t option) {
   const hal_option_info& info = program.options[option];
   TestBench* const bench = cores_->all.front()->bench_;
   return bench ? bench->option(option, info) : info.default_value;
+}
+
+std::string_view Cpu::option_data(std::uint32_t option) {
+  const hal_program& program = program_->description();
+  if (option >= program.option_count ||
+      program.options[option].unit != std::string_view(HAL_UNIT_FILE)) {
+    misuse("hal_option_data(" + std::to_string(option) + "): no such option of a file");
+  }
+  TestBench* const bench = cores_->all.front()->bench_;
+  return bench ? bench->option_data(option) : std::string_view();
 }
 
 std::uint32_t Cpu::xparameter(const char* name, std::uint32_t built_in) {
@@ -306,6 +317,13 @@ void hal_publish(uint32_t kind, const void* data, size_t size) {
 
 double hal_option(uint32_t option) {
   return on_cpu("hal_option", [&](ps::Cpu& cpu) { return cpu.option(option); });
+}
+
+const void* hal_option_data(uint32_t option, size_t* size) {
+  const std::string_view data =
+      on_cpu("hal_option_data", [&](ps::Cpu& cpu) { return cpu.option_data(option); });
+  *size = data.size();
+  return data.empty() ? nullptr : data.data();
 }
 
 uint32_t hal_xpar(const char* name, uint32_t built_in) {

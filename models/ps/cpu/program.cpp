@@ -1,5 +1,6 @@
 #include <elf.h>
 
+#include <hal/option_data.h>
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_image.h>
 #include <ps/cpu/program_watch.h>
@@ -81,6 +82,10 @@ std::string problem_of_names(const char* kind, std::uint32_t count, Name name) {
 }
 
 std::string problem_of_values(const hal_option_info& option) {
+  if (option.unit == std::string_view(HAL_UNIT_FILE)) {
+    const bool is_sound = option.default_value == 0 && option.minimum == 0 && option.maximum == 1;
+    return is_sound ? "" : "names a file: its default is 0, its range 0 to 1";
+  }
   const std::vector<std::string> names = option_names(option);
   if (names.empty()) return {};
   for (const std::string& name : names) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <chip/run/camera_timing.h>
@@ -67,6 +68,7 @@ class FrameBench : public ps::TestBench {
   bool publish(std::uint32_t kind, const void* data, std::size_t size,
                std::uint64_t now_ps) override;
   double option(std::uint32_t option, const hal_option_info& info) override;
+  std::string_view option_data(std::uint32_t option) override { return options_.data(option); }
   std::optional<std::uint32_t> xparameter(const char* name) override;
 
  private:

@@ -1,9 +1,13 @@
 #include <chip/run/software_options.h>
 
+#include <chip/system/option_files.h>
+#include <hal/option_data.h>
 #include <ps/cpu/program.h>
 #include <vp/error.h>
+#include <vp/file.h>
 #include <vp/unit.h>
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -12,6 +16,8 @@ namespace platform {
 using profiles::Optimisation;
 
 namespace {
+
+constexpr std::uintmax_t most_option_bytes = 64 << 20;
 
 /// The dimension a unit's name belongs to.
 vp::Unit dimension_of(const std::string& unit, const hal_program& program, const char* option) {
@@ -43,7 +49,7 @@ void check_clock(std::uint64_t hz, const vp::Range<double>& range, const hal_pro
 
 SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
                                  const std::string& profile, std::uint64_t cpu_hz,
-                                 const CameraTiming& camera, const Design& design)
+                                 const CameraTiming& camera, Design& design)
     : sc_module(name),
       opt_("opt", profiles::optimisation_of(profile),
            {{"O0", Optimisation::o0}, {"O2", Optimisation::o2}}, vp::Source::derived,
@@ -55,6 +61,10 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
     const hal_option_info& info = program.options[i];
     if (const auto decided = design.program_option(info.name)) {
       values_.push_back(*decided);
+      continue;
+    }
+    if (info.unit == std::string_view(HAL_UNIT_FILE)) {
+      values_.push_back(read_file(i, info, design));
       continue;
     }
     if (const auto names = ps::option_names(info); !names.empty()) {
@@ -94,6 +104,28 @@ SoftwareOptions::SoftwareOptions(sc_core::sc_module_name name, const hal_program
     values_.push_back(parameter.get() / base);
     if (is_upload) uploads_ = parameter >= 0.5;
   }
+}
+
+double SoftwareOptions::read_file(std::uint32_t option, const hal_option_info& info,
+                                  Design& design) {
+  const std::string& path =
+      files_.emplace_back(info.name, "", vp::Source::decision, info.documentation).get();
+  if (path.empty()) return 0;
+  // So that sweeps know it for a file, whose contents count.
+  if (std::filesystem::path(path).extension().empty()) {
+    throw vp::InputError(std::string("sw.") + info.name + ": '" + path +
+                         "' has no extension: give its name one, like .yml");
+  }
+  auto* knows = dynamic_cast<OptionFiles*>(&design);
+  data_[option] = knows ? knows->option_data(info.name, path)
+                        : vp::read_text(path, std::string("sw.") + info.name, most_option_bytes);
+  return 1;
+}
+
+const std::string& SoftwareOptions::data(std::uint32_t option) const {
+  static const std::string nothing;
+  const auto found = data_.find(option);
+  return found == data_.end() ? nothing : found->second;
 }
 
 std::optional<Optimisation> SoftwareOptions::optimisation() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <systemc>
@@ -25,7 +26,7 @@ class SoftwareOptions : public sc_core::sc_module {
   /// What the logic of `design` decides is no parameter.
   SoftwareOptions(sc_core::sc_module_name name, const hal_program& program,
                   const std::string& profile, std::uint64_t cpu_hz, const CameraTiming& camera,
-                  const Design& design);
+                  Design& design);
 
   /// What the user asked for; none: what the profile is for.
   std::optional<profiles::Optimisation> optimisation() const;
@@ -35,14 +36,21 @@ class SoftwareOptions : public sc_core::sc_module {
 
   /// Option number `option` in the unit that the program declared.
   double value(std::uint32_t option) const { return values_.at(option); }
+  /// What is in the file that this option names, as OptionFiles has it or else as it is; empty: it
+  /// names none.
+  const std::string& data(std::uint32_t option) const;
   /// The program brings its inputs to the PL itself.
   bool uploads() const { return uploads_; }
 
  private:
+  /// 1 if the user names a file, else 0.
+  double read_file(std::uint32_t option, const hal_option_info& info, Design& design);
+
   vp::Parameter<profiles::Optimisation> opt_;
   std::deque<vp::Parameter<double>> parameters_;
-  std::deque<vp::Parameter<std::string>> names_;
+  std::deque<vp::Parameter<std::string>> names_, files_;
   std::vector<double> values_;
+  std::map<std::uint32_t, std::string> data_;  ///< of options that name a file
   bool is_unoptimised_ = false;
   bool uploads_ = false;  ///< a program that does has the option `upload`
 };

@@ -8,6 +8,7 @@
 #include <marker/code_book.h>
 #include <marker/commands/commands.h>
 #include <marker/detectors/comparison.h>
+#include <marker/input/dictionary_file.h>
 #include <marker/input/frame_source.h>
 #include <marker/input/image_input.h>
 #include <result/page/report_page.h>
@@ -22,6 +23,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 namespace platform::commands {
@@ -162,9 +164,15 @@ class Comparer {
     for (const Candidate& candidate : candidates_) {
       if (!candidate.parameters.has("sw.dictionary")) continue;
       result_.dictionary = candidate.parameters.find("sw.dictionary").value;
+      if (const std::string& file = candidate.parameters.find("sw.dictionary_file").value;
+          !file.empty()) {
+        own_dictionary_ = input::read_dictionary_file(file);
+        result_.dictionary = own_dictionary_->name;
+      }
     }
     const auto reads_it = [&](const Candidate& candidate) {
-      return candidate.parameters.has("sw.dictionary") || result_.dictionary == usual_dictionary;
+      return candidate.parameters.has("sw.dictionary") ||
+             (!own_dictionary_ && result_.dictionary == usual_dictionary);
     };
     for (const Candidate& candidate : candidates_) {
       if (!reads_it(candidate))
@@ -175,18 +183,28 @@ class Comparer {
   }
 
   void set_up_markers(const study::ParameterTable& parameters) {
-    const marker::Dictionary* words = marker::find_dictionary(result_.dictionary.c_str());
-    if (words == nullptr)
+    const marker::Dictionary* known = marker::find_dictionary(result_.dictionary.c_str());
+    if (!own_dictionary_ && known == nullptr)
       throw vp::InputError("sw.dictionary: the libraries know no '" + result_.dictionary + "'");
+    const marker::Dictionary words =
+        own_dictionary_ ? input::as_dictionary(*own_dictionary_) : *known;
     marker::CodeBook book;
-    book.open(*words);
-    markers_.cells = words->cells;
-    markers_.distance = words->distance;
+    book.open(words);
+    markers_.cells = words.cells;
+    markers_.distance = words.distance;
     markers_.corrected = book.corrects();
-    markers_.words.assign(words->words, words->words + words->size);
+    markers_.words.assign(words.words, words.words + words.size);
+    markers_.border = border_of(parameters);
     if (!parameters.has("sw.marker_side")) return;
     const std::string side = parameters.find("sw.marker_side").value;
     markers_.side_m = vp::parse_quantity(side, vp::Unit::length).to_double();
+  }
+
+  /// Cells. What a dictionary's file says counts.
+  std::uint32_t border_of(const study::ParameterTable& parameters) const {
+    if (own_dictionary_ && own_dictionary_->border != 0) return own_dictionary_->border;
+    if (!parameters.has("sw.border_bits")) return 1;
+    return static_cast<std::uint32_t>(std::stoul(parameters.find("sw.border_bits").value));
   }
 
   template <class Condition>
@@ -306,6 +324,7 @@ class Comparer {
   std::vector<Candidate> candidates_;
   input::InputOptions input_;
   detectors::MarkerSet markers_;
+  std::optional<input::OwnDictionary> own_dictionary_;
   std::map<fs::path, detectors::Truth> truths_;  ///< by their place
   detectors::Comparison result_;
 };

@@ -34,6 +34,7 @@ class OpenCvPeer : public Peer {
     for (const std::uint64_t word : markers.words)
       dictionary_.bytesList.push_back(byte_list(word, dictionary_.markerSize));
     parameters_->cornerRefinementMethod = refinement;
+    parameters_->markerBorderBits = static_cast<int>(markers.border);
   }
 
   std::string name() const override { return name_; }
@@ -107,20 +108,20 @@ class OpenCvPeer : public Peer {
   cv::Ptr<cv::aruco::DetectorParameters> parameters_ = cv::aruco::DetectorParameters::create();
 };
 
-/// A family of AprilTag's with the geometry of ArUco's markers: code and black border, a cell wide.
+/// A family of AprilTag's with the geometry of ArUco's markers: code and black border.
 ///
 /// AprilTag turns a code by a quarter by moving its bits on by a quarter of their number, so the
 /// bits of a quadrant come one after the other, row by row, then those of the next one clockwise;
 /// the centre of an odd number of cells comes last.
 class TagFamily {
  public:
-  explicit TagFamily(const MarkerSet& markers) : cells_(markers.cells) {
+  explicit TagFamily(const MarkerSet& markers) : cells_(markers.cells), border_(markers.border) {
     place_bits();
     for (const std::uint64_t word : markers.words) codes_.push_back(code(word));
     family_.ncodes = static_cast<std::uint32_t>(codes_.size());
     family_.codes = codes_.data();
-    family_.width_at_border = static_cast<int>(cells_) + 2;
-    family_.total_width = static_cast<int>(cells_) + 4;
+    family_.width_at_border = static_cast<int>(cells_ + 2 * border_);
+    family_.total_width = family_.width_at_border + 2;
     family_.nbits = static_cast<std::uint32_t>(x_.size());
     family_.bit_x = x_.data();
     family_.bit_y = y_.data();
@@ -134,9 +135,9 @@ class TagFamily {
 
  private:
   void place_bits() {
-    const std::uint32_t last = cells_ + 1;  // cells are 1 … `cells_` in each direction
+    const std::uint32_t last = cells_ + 2 * border_ - 1;  // of the marker in each direction
     std::vector<std::array<std::uint32_t, 2>> quadrant;
-    for (std::uint32_t y = 1; 2 * y < last; ++y) {
+    for (std::uint32_t y = border_; 2 * y < last; ++y) {
       for (std::uint32_t x = y; x < last - y; ++x) quadrant.push_back({x, y});
     }
     for (int turn = 0; turn < 4; ++turn) {
@@ -158,14 +159,14 @@ class TagFamily {
   std::uint64_t code(std::uint64_t word) const {
     std::uint64_t result = 0;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      const std::uint32_t place = (y_[i] - 1) * cells_ + x_[i] - 1;
+      const std::uint32_t place = (y_[i] - border_) * cells_ + x_[i] - border_;
       const bool black = (word >> (cells_ * cells_ - 1 - place) & 1) != 0;
       result = result << 1 | (black ? 0U : 1U);
     }
     return result;
   }
 
-  std::uint32_t cells_;
+  std::uint32_t cells_, border_;
   std::vector<std::uint32_t> x_, y_;
   std::vector<std::uint64_t> codes_;
   std::string name_ = "aruco";

@@ -26,6 +26,7 @@ struct MarkerSet {
   std::uint32_t corrected = 0;       ///< wrong cells that our own programs put up with
   std::vector<std::uint64_t> words;  ///< by ID: row by row, the top left cell highest; 1 = black
   double side_m = marker_side_m;     ///< of the black square
+  std::uint32_t border = 1;          ///< width of the black border, cells
 };
 
 /// A detector that others wrote, on one thread of this computer.
@@ -47,7 +48,7 @@ class PeerLibrary {
 };
 
 /// Raised with every change of the classes above: the plug-in's entry point carries it in its name.
-#define MARKERVP_PEERS_ENTRY markervp_peers_1
+#define MARKERVP_PEERS_ENTRY markervp_peers_2
 
 /// Those of the plug-in. Throws vp::InputError if it is missing or of another version.
 std::vector<std::unique_ptr<Peer>> make_peers(const MarkerSet& markers);

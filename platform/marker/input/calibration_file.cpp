@@ -241,7 +241,7 @@ Node read_yaml(const std::string& text, const std::string& what) {
   const bool is_json = text.rfind('{', 0) == 0;
   const YAML::Node root =
       vp::load_yaml(is_json ? without_comments(text) : text, what, vp::YamlDocuments::first);
-  if (!root.IsMap()) throw vp::InputError(what + ": no calibration in YAML, XML or JSON");
+  if (!root.IsMap()) throw vp::InputError(what + ": no entries in YAML, XML or JSON");
   return node_of(root, "");
 }
 
@@ -260,11 +260,11 @@ class XmlReader {
     XML_SetUserData(parser, this);
     XML_SetElementHandler(parser, &XmlReader::start, &XmlReader::end);
     XML_SetCharacterDataHandler(parser, &XmlReader::characters);
-    // No calibration has one, and entities are defined in it.
+    // No such file has one, and entities are defined in it.
     XML_SetStartDoctypeDeclHandler(parser, &XmlReader::doctype);
     const auto status = XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE);
     if (error_) std::rethrow_exception(error_);
-    if (status != XML_STATUS_OK) fail("this is not whole XML: calibrate again, or correct it");
+    if (status != XML_STATUS_OK) fail("this is not whole XML: write it anew, or correct it");
     return std::move(root_);
   }
 
@@ -303,7 +303,7 @@ class XmlReader {
   }
   static void doctype(void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
     guarded(self,
-            [](XmlReader& reader) { reader.fail("a calibration has no DOCTYPE: leave it out"); });
+            [](XmlReader& reader) { reader.fail("OpenCV's XML has no DOCTYPE: leave it out"); });
   }
 
   void open(const std::string& name, const XML_Char** attributes) {
@@ -311,7 +311,7 @@ class XmlReader {
       fail("no <opencv_storage>: not OpenCV's XML, and no other XML is read");
     }
     if (open_.size() == deepest)
-      fail("nested more than " + std::to_string(deepest) + " levels deep: calibrate again");
+      fail("nested more than " + std::to_string(deepest) + " levels deep: write it anew");
     Node node;
     if (name != "_") node.name = name;
     for (; *attributes != nullptr; attributes += 2) {
@@ -376,6 +376,12 @@ std::string plain_name(const std::string& name) {
   return text;
 }
 
+std::vector<CalibrationEntry> read_file_storage(const std::string& text, const std::string& what) {
+  Collection collection(what);
+  collection.add_children(text[0] == '<' ? XmlReader(what).read(text) : read_yaml(text, what), "");
+  return collection.take();
+}
+
 std::vector<CalibrationEntry> read_calibration_file(const std::string& path) {
   std::string text = vp::read_text(path, "camera file", largest_file);
   const std::string what = "camera file '" + path + "'";
@@ -385,12 +391,10 @@ std::vector<CalibrationEntry> read_calibration_file(const std::string& path) {
   if (!other.empty())
     throw vp::InputError(what + " is " + other + ": give " + accepted_calibrations);
   if (text.find('\0') != std::string::npos)
-    throw vp::InputError(what + ": no calibration in YAML, XML or JSON");
+    throw vp::InputError(what + ": no entries in YAML, XML or JSON");
   if (std::optional<std::vector<CalibrationEntry>> script = read_script(text, what))
     return std::move(*script);
-  Collection collection(what);
-  collection.add_children(text[0] == '<' ? XmlReader(what).read(text) : read_yaml(text, what), "");
-  return in_known_words(collection.take(), what);
+  return in_known_words(read_file_storage(text, what), what);
 }
 
 }  // namespace platform::input

@@ -24,6 +24,10 @@ constexpr const char* accepted_calibrations =
 /// malformed, or of another format, which the message names if it is a well-known one.
 std::vector<CalibrationEntry> read_calibration_file(const std::string& path);
 
+/// The same of a text that is OpenCV's FileStorage or plain YAML, and need not be a camera's.
+/// `what`: the file, for messages.
+std::vector<CalibrationEntry> read_file_storage(const std::string& text, const std::string& what);
+
 /// In small letters, without separators: "Camera_Matrix" and "cameraMatrix" are the same.
 std::string plain_name(const std::string& name);
 

@@ -13,8 +13,10 @@ using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 /// peers_test).
 constexpr const char* turned_families = "apriltag_";
 
-bool is_turned(const Convention& convention, const std::string& family) {
-  return convention.turns_apriltag && family.rfind(turned_families, 0) == 0;
+/// Not of a dictionary of the user's own: its file says what is up.
+bool is_turned(const Convention& convention, const FoundPose& found) {
+  return convention.turns_apriltag && !found.code_cells &&
+         found.family.rfind(turned_families, 0) == 0;
 }
 
 /// The axes of the marker's frame, as columns, in those of result.json.
@@ -75,7 +77,7 @@ FoundPose with_side(const FoundPose& found, double side_m) {
 
 FoundPose in_convention(const Convention& convention, const FoundPose& found) {
   FoundPose result = found;
-  const bool turned = is_turned(convention, found.family);
+  const bool turned = is_turned(convention, found);
   if (!found.is_board()) result.corners_px = corners_of(convention, turned, found.corners_px);
   if (!found.pose) return result;
   Eigen::Vector3d arm(0, 0, 0);

@@ -38,7 +38,8 @@ struct FoundPose {
   std::optional<PoseCovariance> covariance = {};
   /// How far the corners are from where their pose, or that of their board, has them.
   std::optional<double> residual_px = {};
-  std::optional<unsigned> corrected = {};  ///< wrong cells of its code
+  std::optional<unsigned> corrected = {};   ///< wrong cells of its code
+  std::optional<unsigned> code_cells = {};  ///< of its code, where the family's name does not tell
 
   bool is_board() const { return family.empty(); }
 };

@@ -47,6 +47,7 @@ FoundPose marker_of(const Json& json, const std::string& family) {
     if (json.contains(residual)) found.residual_px = json[residual].get<double>();
   }
   if (json.contains("corrected")) found.corrected = json["corrected"].get<unsigned>();
+  if (json.contains("code_cells")) found.code_cells = json["code_cells"].get<unsigned>();
   return found;
 }
 
@@ -73,7 +74,10 @@ std::vector<PoseFrame> read_poses(const std::string& path) {
   std::vector<PoseFrame> frames;
   try {
     // The thesis' programs know one dictionary only.
-    const std::string family = json.at("configuration").value("sw.dictionary", "4x4_250");
+    const Json& configuration = json.at("configuration");
+    const std::string own = configuration.value("sw.dictionary_file", "");
+    const std::string family = own.empty() ? configuration.value("sw.dictionary", "4x4_250")
+                                           : std::filesystem::path(own).stem().string();
     for (const Json& frame : json.at("frames")) frames.push_back(frame_of(frame, family));
   } catch (const Json::exception&) {
     throw vp::InputError("'" + file +

@@ -85,7 +85,8 @@ unsigned cells_of(const std::string& family) {
 /// The share of the code's cells that were right.
 double score(const FoundPose& found) {
   if (found.is_board() || !found.corrected) return 1;
-  return 1 - static_cast<double>(*found.corrected) / cells_of(found.family);
+  const unsigned cells = found.code_cells ? *found.code_cells : cells_of(found.family);
+  return 1 - static_cast<double>(*found.corrected) / cells;
 }
 
 std::string detection(const PoseFrame& frame, const FoundPose& found, const Pose& middle,

@@ -38,7 +38,8 @@ struct FoundMarker {
   // Of the pose, where the program tells them.
   std::optional<double> reprojection_px;  ///< mean distance of the corners from their projections
   std::optional<std::uint32_t> iterations;
-  std::optional<std::uint32_t> corrected = {};  ///< cells of its code that were wrong
+  std::optional<std::uint32_t> corrected = {};   ///< cells of its code that were wrong
+  std::optional<std::uint32_t> code_cells = {};  ///< of its code, where no name of it tells
   std::optional<PoseCovariance> covariance;
   std::optional<PoseMotion> motion = {};
   /// Of a board's marker: how far its corners are from where the board has them, px, root of the

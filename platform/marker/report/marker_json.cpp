@@ -109,6 +109,7 @@ Json marker_json(const MarkerFrame& frame, const FoundMarker& found) {
   json["rotation"] = found.rotation;
   json["side_m"] = found.side_m;
   if (found.corrected) json["corrected"] = *found.corrected;
+  if (found.code_cells) json["code_cells"] = *found.code_cells;
   json["corners_px"] = corners_json(found.corners_px);
   if (found.has_pose) {
     json["pose"] = pose_json(found.pose);

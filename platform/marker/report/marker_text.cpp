@@ -79,8 +79,9 @@ void add_marker(Lines& lines, const MarkerFrame& frame, const FoundMarker& found
   if (found.residual_px) {
     lines.emplace_back("on board", fmt::format("{:.2f} px from its place", *found.residual_px));
   } else if (!frame.board || found.has_pose) {
-    lines.emplace_back("pose", found.has_pose ? pose_text(found.pose) + fit_text(found)
-                                              : "none: the corners admit no pose");
+    lines.emplace_back("pose", found.has_pose
+                                   ? pose_text(found.pose) + fit_text(found)
+                                   : "none: the corners admit none, or it is one of a board's");
   }
   if (const GroundTruth* truth = truth_of(frame, found)) {
     lines.emplace_back("error", error_text(found, *truth));

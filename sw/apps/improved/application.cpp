@@ -47,9 +47,13 @@ int Application::run() {
 
 bool Application::initialise() {
   options_ = read_options();
-  detector_.open(*options_.dictionary, options_.detector);
+  if (!dictionary_.open(*options_.dictionary, options_.own_dictionary, options_.border)) {
+    apps::Message().text("improved: the markers' border is too wide for their codes").write();
+    return false;
+  }
+  detector_.open(dictionary_.get(), options_.detector);
   optics_.open(options_.optics);
-  if (options_.second_core) both_cores_.start(*options_.dictionary, options_.detector);
+  if (options_.second_core) both_cores_.start(dictionary_.get(), options_.detector);
   if (options_.pose_filter) open_filter();
   next_slot_ = 0;
   knows_camera_frame_ = false;

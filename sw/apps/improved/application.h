@@ -4,6 +4,7 @@
 #include <apps/improved/capture.h>
 #include <apps/improved/frame_optics.h>
 #include <apps/improved/options.h>
+#include <apps/improved/own_dictionary.h>
 #include <hal/hal.h>
 #include <marker/detection_result.h>
 #include <marker/marker_detector.h>
@@ -50,6 +51,7 @@ class Application {
   std::uint32_t next_slot_;
   bool knows_camera_frame_;     ///< false after a failed frame
   std::uint32_t camera_frame_;  ///< the number of the last one
+  OwnDictionary dictionary_;
   marker::MarkerDetector detector_;
   marker::PoseFilter pose_filter_;
   double seconds_per_count_;  ///< of the global timer; with the filter only

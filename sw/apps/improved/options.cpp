@@ -34,6 +34,11 @@ marker::Board read_board() {
   return board;
 }
 
+const void* data_of(Option option) {
+  std::size_t bytes = 0;
+  return hal_option_data(static_cast<std::uint32_t>(option), &bytes);
+}
+
 }  // namespace
 
 const hal_option_info option_table[] = {
@@ -48,9 +53,12 @@ const std::uint32_t option_count = static_cast<std::uint32_t>(Option::count);
 Options read_options() {
   Options options{};
   options.dictionary = &marker::dictionaries[whole(Option::dictionary)];
+  options.own_dictionary = data_of(Option::dictionary_file);
+  options.border = whole(Option::border_bits);
   options.detector.minimum_side = whole(Option::minimum_side);
   options.detector.detection.white_border = whole(Option::white_border);
   options.detector.detection.fit.minimum_contrast = value(Option::minimum_contrast);
+  options.detector.detection.fit.crossings = whole(Option::crossings);
   options.detector.board = read_board();
   options.optics = {static_cast<ResponseChoice>(whole(Option::response)),
                     value(Option::response_exponent), static_cast<Tries>(whole(Option::tries))};

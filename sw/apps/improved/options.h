@@ -2,6 +2,7 @@
 
 #include <apps/improved/frame_optics.h>
 #include <hal/hal.h>
+#include <hal/option_data.h>
 #include <marker/camera.h>
 #include <marker/code_book.h>
 #include <marker/marker_detector.h>
@@ -17,6 +18,9 @@
     "6x6_1000|7x7_50|7x7_100|7x7_250|7x7_1000|apriltag_36h11|apriltag_16h5|apriltag_25h9|"    \
     "aruco_original|aruco_mip_36h12",                                                         \
     2, 0, 20, "markers that are looked for (the thesis' are 4x4_250)")                        \
+  X(dictionary_file, HAL_UNIT_FILE, 0, 0, 1,                                                  \
+    "markers of your own instead: a dictionary of OpenCV's, a family of AprilTag's in C")     \
+  X(border_bits, "", 1, 1, 3, "width of a marker's black border, cells")                      \
   X(board, "none|grid|charuco", 0, 0, 2,                                                      \
     "none: each marker has a pose of its own; else one pose of all that are on the board")    \
   X(marker_side, "m", 0.30, 0.001, 100, "side of a marker's black square (thesis chapter 5)") \
@@ -32,6 +36,8 @@
   X(white_border, "", 0, 0, 32, "so many cells of a marker's border may be white (decision)") \
   X(minimum_contrast, "", 8, 5, 255,                                                          \
     "grey levels between the sides of an edge; as few as dim light leaves (decision)")        \
+  X(crossings, "", 256, 16, 256,                                                              \
+    "places of a side, at most, where its edge is measured: time for accuracy (decision)")    \
   X(tries, "one|nearer|outlines", 0, 0, 2,                                                    \
     "nearer: what is refused is looked at once more, nearer to its edge (neighbours that "    \
     "nearly touch); outlines: and then its outline is followed (touched and hidden corners)") \
@@ -58,6 +64,8 @@ namespace improved {
 /// The options as values in the units above.
 struct Options {
   const marker::Dictionary* dictionary;
+  const void* own_dictionary;  ///< DictionaryData of the user's own; nullptr: none
+  std::uint32_t border;        ///< width of a marker's, cells
   marker::DetectorOptions detector;
   OpticsOptions optics;
   bool overlap;

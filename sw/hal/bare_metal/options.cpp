@@ -2,6 +2,7 @@
 #include "chip.h"
 
 #include <hal/hal.h>
+#include <hal/option_data.h>
 
 #include <cstring>
 
@@ -37,6 +38,8 @@ void check_options() {
     if (!is_for_this_program(*entry)) continue;
     const hal_option_info* info = find(entry->option);
     if (info == nullptr) refuse(*entry, ": the program has no such option");
+    if (std::strcmp(info->unit, HAL_UNIT_FILE) == 0)
+      refuse(*entry, ": there are no files on the chip");
     if (!(entry->value >= info->minimum && entry->value <= info->maximum)) {
       refuse(*entry, ": the value of MARKERVP_CHIP_OPTIONS is out of range");
     }
@@ -59,4 +62,9 @@ extern "C" double hal_option(uint32_t option) {
     }
   }
   return value;
+}
+
+extern "C" const void* hal_option_data(uint32_t, size_t* size) {
+  *size = 0;
+  return nullptr;
 }

@@ -1,5 +1,6 @@
 // A program without hardware: console and memory work, everything else says that it is not there.
 #include <hal/hal.h>
+#include <hal/option_data.h>
 
 #include <array>
 #include <cstdint>
@@ -113,6 +114,11 @@ void hal_publish(uint32_t, const void*, size_t) {}
 double hal_option(uint32_t option) {
   if (option >= hal_program_info.option_count) refuse("hal_option");
   return hal_program_info.options[option].default_value;
+}
+
+const void* hal_option_data(uint32_t, size_t* size) {
+  *size = 0;
+  return nullptr;
 }
 
 }  // extern "C"

@@ -15,9 +15,10 @@ int entry() {
 
 constexpr const char* work_names[] = {"step", "load"};
 constexpr const char* function_names[] = {"outer", "inner", "dispatch"};
-constexpr hal_option_info options[] = {{"margin", "px", 4.0, 0.0, 20.0, "a number"}};
+constexpr hal_option_info options[] = {{"margin", "px", 4.0, 0.0, 20.0, "a number"},
+                                       {"table", "file", 0.0, 0.0, 1.0, "what a user brings"}};
 constexpr hal_program description{HAL_ABI,        "bench", entry,   work_names, 2,
-                                  function_names, 3,       options, 1};
+                                  function_names, 3,       options, 2};
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 
 #include <ps/memory/memory.h>
 
+#include <hal/option_data.h>
+
 #include "bench.h"
 
 using namespace bench;
@@ -23,6 +25,9 @@ struct Recorder : ps::TestBench {
   }
   double option(std::uint32_t option, const hal_option_info& info) override {
     return info.maximum + option;
+  }
+  std::string_view option_data(std::uint32_t option) override {
+    return option == 1 ? "what is in it" : "";
   }
   std::optional<std::uint32_t> xparameter(const char* name) override {
     if (std::strcmp(name, "TIMER_BASEADDR") == 0) return 0x4567'0000;
@@ -80,6 +85,25 @@ BOOST_AUTO_TEST_CASE(options_come_from_the_bench) {
   c.cpu.connect(bench);
   c.run([] {
     BOOST_TEST(hal_option(0) == 20.0);
+    return 0;
+  });
+}
+
+BOOST_AUTO_TEST_CASE(files_of_options_come_from_the_bench) {
+  Recorder bench;
+  Bench b;
+  b.run([] {
+    std::size_t size = 1;
+    BOOST_TEST(hal_option_data(1, &size) == nullptr);
+    BOOST_TEST(size == 0u);
+    return 0;
+  });
+  Bench c;
+  c.cpu.connect(bench);
+  c.run([] {
+    std::size_t size = 0;
+    const auto* data = static_cast<const char*>(hal_option_data(1, &size));
+    BOOST_TEST(std::string(data, size) == "what is in it");
     return 0;
   });
 }

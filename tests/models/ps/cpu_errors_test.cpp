@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <hal/option_data.h>
+
 #include "bench.h"
 
 using namespace bench;
@@ -204,7 +206,12 @@ BOOST_AUTO_TEST_CASE(mistakes_with_annotations_and_options) {
       {[] { hal_work(2, 1); }, "hal_work(2): no such unit of work"},
       {[] { hal_function_enter(3); }, "hal_function_enter(3): no such function"},
       {[] { hal_function_leave(); }, "hal_function_leave() without hal_function_enter()"},
-      {[] { hal_option(1); }, "hal_option(1): no such option"},
+      {[] { hal_option(2); }, "hal_option(2): no such option"},
+      {[] {
+         std::size_t size = 0;
+         hal_option_data(0, &size);
+       },
+       "hal_option_data(0): no such option of a file"},
   };
   for (const auto& [mistake, message] : mistakes) {
     Bench b;

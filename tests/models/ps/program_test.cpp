@@ -184,6 +184,7 @@ BOOST_AUTO_TEST_CASE(options_that_cannot_be) {
   const std::string range = "give finite numbers, the default in the range";
   BOOST_TEST(error_of_options({{"a", "", 1, 0, 2, ""}, {"a_2", "", 0, 0, 0, "d"}}) == "");
   BOOST_TEST(error_of_options({{"a", "no|yes", 1, 0, 1, ""}}) == "");
+  BOOST_TEST(error_of_options({{"a", "file", 0, 0, 1, ""}}) == "");
   for (const auto& [option, part] : std::vector<std::pair<hal_option_info, std::string>>{
            {{"a", "", nan, 0, 1, ""}, range},
            {{"a", "", 0, nan, 1, ""}, range},
@@ -197,6 +198,8 @@ BOOST_AUTO_TEST_CASE(options_that_cannot_be) {
            {{"a", "no|yes", 0, 0, 2, ""}, "names 2 values: its default is the place of one"},
            {{"a", "no|yes|maybe", 0.5, 0, 2, ""}, "its range 0 to 2"},
            {{"a", "no||yes", 0, 0, 2, ""}, "empty name"},
+           {{"a", "file", 1, 0, 1, ""}, "names a file: its default is 0, its range 0 to 1"},
+           {{"a", "file", 0, 0, 2, ""}, "names a file"},
            {{nullptr, "", 0, 0, 1, ""}, "no name for option number 0"}}) {
     const std::string error = error_of_options({option});
     BOOST_TEST(error.find(part) != std::string::npos, error);

@@ -1,4 +1,5 @@
 #include <apps/improved/application.h>
+#include <apps/improved/own_dictionary.h>
 #include <marker/scene/renderer.h>
 #include <marker/work.h>
 
@@ -115,6 +116,51 @@ BOOST_AUTO_TEST_CASE(options_make_board_and_dictionary) {
   BOOST_TEST(options.detector.board.find(0, places));
   BOOST_TEST(places[0][1] == 0.005, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(!options.detector.board.find(17, places));
+}
+
+BOOST_AUTO_TEST_CASE(a_dictionary_and_its_border_may_be_the_users_own) {
+  set("border_bits", 2);
+  BOOST_TEST(improved::read_options().border == 2u);
+  BOOST_TEST(improved::read_options().own_dictionary == nullptr);
+  std::uint32_t option = 0;
+  while (improved::option_table[option].name != std::string("dictionary_file")) ++option;
+  fake_hal::state().option_data[option] = "what is in it";
+  BOOST_TEST(improved::read_options().own_dictionary ==
+             fake_hal::state().option_data[option].data());
+}
+
+// What is more than one cell of a border is part of the code.
+BOOST_AUTO_TEST_CASE(wide_borders_are_black_cells_of_the_code) {
+  const marker::Dictionary& known = *marker::find_dictionary("5x5_50");
+  const auto own = std::make_unique<improved::OwnDictionary>();
+  BOOST_TEST(own->open(known, nullptr, 1));
+  BOOST_TEST(own->get().words == known.words);
+  BOOST_TEST(own->open(known, nullptr, 2));
+  BOOST_TEST(own->get().cells == 7u);
+  for (std::uint32_t id = 0; id < known.size; ++id) {
+    const std::uint64_t word = own->get().words[id];
+    BOOST_TEST(word >> 41 == 0xFFu, "the first row, and the first cell of the second one");
+    BOOST_TEST((word >> 36 & 0x1F) == known.words[id] >> 20);
+    BOOST_TEST((word >> 8 & 0x1F) == (known.words[id] & 0x1F));
+    BOOST_TEST((word & 0xFF) == 0xFFu);
+    BOOST_TEST((marker::rotate_clockwise(word, 7) >> 36 & 0x1F) ==
+               marker::rotate_clockwise(known.words[id], 5) >> 20);
+  }
+  BOOST_TEST(!own->open(known, nullptr, 3), "nine cells a side are more bits than a word has");
+  const std::uint64_t data[] = {3, 1, 24, 3, 0b101010001};
+  BOOST_TEST(own->open(known, data, 1), "the file says how wide");
+  BOOST_TEST(own->get().cells == 7u);
+  BOOST_TEST(own->get().distance == 20u, "no more cells are corrected than the code book can");
+  BOOST_TEST(own->get().words[0] == (std::uint64_t{0x3FFF} << 35 | 0b1110111ull << 28 |
+                                     0b1101011ull << 21 | 0b1100111ull << 14 | 0x3FFF));
+}
+
+BOOST_AUTO_TEST_CASE(a_border_that_does_not_fit_is_told) {
+  set("dictionary", 12);
+  set("border_bits", 2);
+  show({ten_markers()});
+  BOOST_TEST(run() == 1);
+  BOOST_TEST(console_says("border is too wide"));
 }
 
 BOOST_AUTO_TEST_CASE(finds_all_markers_and_their_poses) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace platform {
 
@@ -68,6 +69,19 @@ double reprojection_px(const Camera& camera, const Pose& pose, double side_m,
     sum += std::hypot(off.x, off.y);
   }
   return sum / 4;
+}
+
+std::string text_of_doubles(const marker::Board& board, const std::vector<BoardMarker>& markers) {
+  std::set<int> ids;
+  for (const BoardMarker& marker : markers) {
+    if (!is_alone(marker, markers) && places_of(board, marker)) ids.insert(marker.id);
+  }
+  if (ids.empty()) return "";
+  return fmt::format(
+      "more than one marker of ID {}: which one is the board's is not known, so none counts for "
+      "its "
+      "pose; is there one board in view?",
+      fmt::join(ids, ", "));
 }
 
 BoardFit check_board(const marker::Board& board, const Camera& camera, const Pose& pose,

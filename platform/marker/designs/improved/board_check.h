@@ -43,6 +43,10 @@ double reprojection_px(const Camera& camera, const Pose& pose, double side_m,
 BoardFit check_board(const marker::Board& board, const Camera& camera, const Pose& pose,
                      std::vector<BoardMarker>& markers);
 
+/// What to tell of the board's markers that are seen more than once, which count for nothing: two
+/// boards may be in view. Empty: there are none.
+std::string text_of_doubles(const marker::Board& board, const std::vector<BoardMarker>& markers);
+
 /// The boards, as settings of the program, that all these markers fit: of those that fit about as
 /// well as the best, a few, the simplest first. None if fewer than two markers are seen, which fit
 /// any. `board` says the size of a marker.

@@ -237,6 +237,11 @@ void ImprovedDesign::explain_capture(facts::StageTime& capture) {
     capture.levers = {std::string(pixels_per_clock.name()) + "=" + std::to_string(2 * p)};
 }
 
+void ImprovedDesign::note_option(const std::string& name, double value) {
+  own_markers_.check(name, value);
+  options_[name] = value;
+}
+
 std::optional<double> ImprovedDesign::option(const char* name) const {
   const auto found = options_.find(name);
   return found == options_.end() ? std::nullopt : std::optional(found->second);
@@ -309,6 +314,7 @@ void ImprovedDesign::check(facts::UnitReport& frame) {
   MarkerFrame& found = marker_frame(frame);
   for (std::size_t i = 0; i < found.markers.size(); ++i) {
     FoundMarker& marker = found.markers[i];
+    if (const auto* own = own_markers_.dictionary()) marker.code_cells = own->cells * own->cells;
     if (marker.has_pose)
       marker.reprojection_px =
           reprojection_px(found.camera, marker.pose, marker.side_m, ideal_corners(i));
@@ -320,7 +326,8 @@ void ImprovedDesign::check(facts::UnitReport& frame) {
 void ImprovedDesign::warn_of_vague_markers(facts::UnitReport& frame) const {
   const auto which = static_cast<std::size_t>(option("dictionary").value_or(0));
   if (which >= marker::dictionaries.size()) return;
-  const marker::Dictionary& dictionary = marker::dictionaries[which];
+  const marker::Dictionary* const own = own_markers_.dictionary();
+  const marker::Dictionary& dictionary = own ? *own : marker::dictionaries[which];
   for (const FoundMarker& found : marker_frame(frame).markers) {
     const auto id = static_cast<std::uint32_t>(found.id);
     if (id < dictionary.size && marker::equals_itself_turned(dictionary, id))
@@ -338,15 +345,18 @@ std::array<PixelPoint, 4> ImprovedDesign::ideal_corners(std::size_t index) const
 }
 
 void ImprovedDesign::check_board(facts::UnitReport& frame) {
+  const marker::Board board = board_of(options_);
+  if (board.kind == marker::Board::Kind::none) return;
   MarkerFrame& found = marker_frame(frame);
-  if (!found.board) return;
   std::vector<BoardMarker> markers;
   for (std::uint32_t i = 0; i < result_.found.count; ++i) {
     BoardMarker& seen = markers.emplace_back();
     seen.id = result_.found.markers[i].marker.id;
     seen.ideal_px = ideal_corners(i);
   }
-  const marker::Board board = board_of(options_);
+  std::string doubles = text_of_doubles(board, markers);
+  if (!doubles.empty()) frame.warnings.push_back(std::move(doubles));
+  if (!found.board) return;
   const BoardFit fit = platform::check_board(board, found.camera, found.board->pose, markers);
   for (std::size_t i = 0; i < markers.size(); ++i)
     found.markers[i].residual_px = markers[i].residual_px;

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include <chip/system/design.h>
+#include <chip/system/option_files.h>
 #include <marker/designs/improved/improved_logic.h>
+#include <marker/designs/improved/own_markers.h>
 #include <marker/designs/marker/blob_figure.h>
 #include <marker/detection_result.h>
 #include <marker/scene/pose.h>
@@ -20,7 +22,10 @@ namespace platform {
 
 /// The improved marker detector's logic in the Zynq, and how what its program publishes becomes a
 /// frame of the result. While the software works on a frame the logic may be at the next one.
-class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalListener {
+class ImprovedDesign : public ImprovedLogic,
+                       public Design,
+                       public OptionFiles,
+                       private vp::SignalListener {
  public:
   ImprovedDesign(sc_core::sc_module_name name, PlPorts& ports, const pl::Geometry& usual);
   /// With the longest bursts: least time for addresses and gaps (decision).
@@ -33,7 +38,10 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   void describe(const facts::UnitInput& input, hal_frame& frame) const override;
   void place(const facts::SharedInput& input) override { camera.show({input, &input->bytes()}); }
   void settle() override { settle_counters(); }
-  void note_option(const std::string& name, double value) override { options_[name] = value; }
+  void note_option(const std::string& name, double value) override;
+  std::string option_data(const std::string&, const std::string& path) override {
+    return own_markers_.read(path);
+  }
   std::uint32_t settling_showings() const override;
   bool report(const Publication& publication, facts::UnitReport& frame) override;
   void check(facts::UnitReport& frame) override;
@@ -83,6 +91,7 @@ class ImprovedDesign : public ImprovedLogic, public Design, private vp::SignalLi
   Dropped dropped_{};         ///< since the last frame was reported
   marker::DetectionResult result_;
   std::map<std::string, double> options_;  ///< of the program
+  OwnMarkers own_markers_;
 };
 
 /// The words of the design's signals.

@@ -48,6 +48,22 @@ void write_image(const std::string& path, int width, int height) {
       path, platform::picture::encode_png({width, height, std::vector<std::uint8_t>(size, 128)}));
 }
 
+/// Two markers of a dictionary of one's own, 5 × 5 cells, 1 = white.
+const std::string own_words[] = {"1101100101011101010011011", "0110111100100110111010001"};
+
+/// One of them, inside of a border two cells wide, 18 px a cell.
+std::string drawn(const std::string& word) {
+  platform::GreyImage image{640, 480, std::vector<std::uint8_t>(std::size_t{640} * 480, 220)};
+  for (std::size_t y = 0; y < 9 * 18; ++y) {
+    for (std::size_t x = 0; x < 9 * 18; ++x) {
+      const std::size_t row = y / 18 - 2, column = x / 18 - 2;
+      const bool is_code = row < 5 && column < 5;
+      if (!is_code || word[row * 5 + column] == '0') image.pixels[(y + 100) * 640 + x + 200] = 30;
+    }
+  }
+  return platform::picture::encode_png(image);
+}
+
 }  // namespace
 
 BOOST_FIXTURE_TEST_SUITE(compare_detectors, Terminal)
@@ -127,6 +143,38 @@ BOOST_AUTO_TEST_CASE(a_folder_brings_its_truth) {
   kit::write_file(folder / "ids.json", R"({"schema": 1, "ids": [77]})");
   BOOST_TEST(compare({"plain", "--design", "improved", "--truth", "ids.json"}) == 0, err);
   BOOST_TEST(of("improved")["false"] == 1);
+}
+
+// The designs and the libraries look for the same ones.
+BOOST_AUTO_TEST_CASE(markers_of_ones_own_are_found_by_all) {
+  kit::write_file(folder / "own.yml", "nmarkers: 2\nmarkersize: 5\nmarker_0: \"" + own_words[0] +
+                                          "\"\nmarker_1: \"" + own_words[1] + "\"\n");
+  kit::write_file(folder / "a.png", drawn(own_words[1]));
+  kit::write_file(folder / "truth.json", R"({"schema": 1, "images": {"a.png": [{"id": 1}]}})");
+  std::vector<std::string> own{"a.png", "--set", "sw.dictionary_file=own.yml", "--no-report"};
+  const auto with = [&](const std::string& setting) {
+    std::vector<std::string> arguments = own;
+    arguments.insert(arguments.end(), {"--set", setting});
+    return arguments;
+  };
+  BOOST_TEST(compare(with("sw.border_bits=2")) == 0, err);
+  BOOST_TEST(result()["dictionary"] == "own");
+  for (const char* name : {"improved", "careful", "opencv", "opencv-subpix", "apriltag3"})
+    BOOST_TEST(of(name)["found"] == 1, name);
+  BOOST_TEST(of("thesis").is_null(), "it reads no others");
+  BOOST_TEST(compare(with("sw.border_bits=1")) == 0, err);
+  BOOST_TEST(of("improved")["seen"] == 0);
+  own.insert(own.end(), {"--design", "improved"});
+  BOOST_TEST(compare(with("sw.border_bits=3")) == 2);
+  BOOST_TEST(refused("a border of 3 cells around codes of 5x5"), err);
+  BOOST_TEST(compare(with("sw.dictionary=4x4_50")) == 2);
+  BOOST_TEST(refused("sw.dictionary and sw.dictionary_file are both set"), err);
+  kit::write_file(folder / "own.yml", "nmarkers: 2\nmarkersize: 5\nmarker_0: \"" + own_words[0] +
+                                          "\"\nmarker_1: \"" + own_words[0] + "\"\n");
+  BOOST_TEST(compare(own) == 2);
+  BOOST_TEST(refused("markers 0 and 1 are the same one"), err);
+  BOOST_TEST(compare({"a.png", "--design", "improved", "--set", "sw.dictionary_file=own"}) == 2);
+  BOOST_TEST(refused("'own' has no extension: give its name one"), err);
 }
 
 BOOST_AUTO_TEST_CASE(images_of_another_size_are_for_the_designs_that_take_them) {

@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> cases{
       {"", "is empty"},
-      {"just words", "no calibration in YAML, XML or JSON"},
+      {"just words", "no entries in YAML, XML or JSON"},
       {"a: [1, 2", "camera.yaml':1:1: this is not YAML"},
       {"%YAML:1.0\n---\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n",
        "camera file"},
@@ -153,8 +153,7 @@ BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
   };
   for (const auto& [text, problem] : cases) CHECK_REFUSED(read(folder, text), problem);
   CHECK_REFUSED(read_camera_file(folder / "missing.yaml"), "No such file");
-  CHECK_REFUSED(read(folder, std::string("\x89PNG\0\0\x1A", 7)),
-                "no calibration in YAML, XML or JSON");
+  CHECK_REFUSED(read(folder, std::string("\x89PNG\0\0\x1A", 7)), "no entries in YAML, XML or JSON");
 }
 
 /// A camera file of ROS with one line in place of another.

@@ -127,6 +127,10 @@ BOOST_AUTO_TEST_CASE(a_detection_says_how_sure_it_is_and_where_its_middle_is) {
     BOOST_TEST(poses({"--format", "detections"}) == 0, err);
     BOOST_TEST(out.find(std::string("      score: ") + score + "\n") != std::string::npos, out);
   }
+  result["configuration"]["sw.dictionary_file"] = "tags/rover_2.yml";
+  for (auto& marker : markers()) marker["code_cells"] = 9;
+  BOOST_TEST(poses({"--format", "detections"}) == 0, err);
+  BOOST_TEST(out.find("class_id: 'rover_2:7'\n      score: 0.888889\n") != std::string::npos, out);
   markers().clear();
   BOOST_TEST(poses({"--format", "detections"}) == 0, err);
   BOOST_TEST(out.find("detections: []\n---\n") != std::string::npos, out);
