@@ -106,6 +106,10 @@ std::string clocks_of(const Module& module, const Netlist& nets) {
 
 }  // namespace
 
+std::string compatible(const Module& module) {
+  return "xlnx," + dashes(module.ip()) + "-" + vp::split(module.vlnv, ':').back();
+}
+
 std::string device_tree(const Handoff& handoff) {
   const Netlist nets(handoff);
   std::vector<Netlist::Interrupt> interrupts = nets.interrupts();
@@ -118,13 +122,12 @@ std::string device_tree(const Handoff& handoff) {
   for (const handoff::Segment& segment : handoff.ps().segments) {
     const Module* module = handoff.module(segment.instance);
     if (!module) continue;
-    const std::vector<std::string> vlnv = vp::split(module->vlnv, ':');
     const auto known = module->is_vendors() ? names().find(module->ip()) : names().end();
     char place[64];
     std::snprintf(place, sizeof place, "%08llx", static_cast<unsigned long long>(segment.base));
     text += "\t\t" + module->instance + ": " +
             (known != names().end() ? known->second.node : module->ip()) + "@" + place +
-            " {\n\t\t\tcompatible = \"xlnx," + dashes(module->ip()) + "-" + vlnv[3] + "\"" +
+            " {\n\t\t\tcompatible = \"" + compatible(*module) + "\"" +
             (known != names().end() ? std::string(", \"") + known->second.older + "\"" : "") +
             ";\n";
     std::snprintf(place, sizeof place, "0x%08llx 0x%llx",

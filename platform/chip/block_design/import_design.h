@@ -40,6 +40,9 @@ ImportedDesign import_design(const handoff::Handoff& handoff,
 std::string import_report(const handoff::Handoff& handoff, const ImportedDesign& design,
                           const std::string& problem);
 
+/// What a device tree calls the kind of an IP: "xlnx,axi-dma-7.1".
+std::string compatible(const handoff::Module& module);
+
 /// The devices of the PL that the PS sees, as a device tree for Linux.
 std::string device_tree(const handoff::Handoff& handoff);
 
