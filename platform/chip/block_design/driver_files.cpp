@@ -121,7 +121,8 @@ class Tables {
     }
   }
 
-  /// XPAR_XFILTER_0_BASEADDR, whatever the IP calls its bus: the first one's.
+  /// XPAR_FILTER_0_BASEADDR and XPAR_XFILTER_0_BASEADDR, whatever the IP calls its bus: the first
+  /// one's.
   void device_tree_names(std::string& text, const std::vector<std::string>& words) {
     const auto is_base = [](const std::string& one) {
       return one.find("BASEADDR") != std::string::npos;
@@ -129,9 +130,11 @@ class Tables {
     const auto base = std::find_if(words.begin(), words.end(), is_base);
     if (base == words.end()) return;
     std::string lines;
-    for (std::size_t n = 0; n < instances_.size(); ++n)
-      define(lines, upper(word(words, 1)) + "_" + std::to_string(n) + "_BASEADDR",
-             handoff::parameter(instances_[n]->parameters, *base));
+    for (std::size_t n = 0; n < instances_.size(); ++n) {
+      const std::string value = handoff::parameter(instances_[n]->parameters, *base);
+      define(lines, upper(instances_[n]->instance) + "_BASEADDR", value);
+      define(lines, upper(word(words, 1)) + "_" + std::to_string(n) + "_BASEADDR", value);
+    }
     if (!lines.empty()) text += "#ifdef SDT\n" + lines + "#endif\n";
   }
 
