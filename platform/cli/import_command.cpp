@@ -166,15 +166,15 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
   std::error_code ignored;
   std::string problem;
   std::string xparameters = xparameters_of(folder, problem);
-  const bool is_sdt = block_design::is_for_device_tree(texts_of(options.programs), xparameters);
-  if (!sources.empty() || !options.rtl.empty() || !fs::exists(folder / "CMakeLists.txt", ignored))
-    write("CMakeLists.txt", block_design::import_cmake(handoff.name, design, sources, is_sdt));
   const block_design::DriverFiles drivers =
       block_design::driver_files(handoff, drivers_of(handoff, rtl, options.programs), xparameters);
   if (!xparameters.empty()) {
     xparameters.insert(xparameters.rfind("\n#endif"), drivers.names);
     write("xparameters.h", xparameters);
   }
+  const bool is_sdt = block_design::is_for_device_tree(texts_of(options.programs), xparameters);
+  if (!sources.empty() || !options.rtl.empty() || !fs::exists(folder / "CMakeLists.txt", ignored))
+    write("CMakeLists.txt", block_design::import_cmake(handoff.name, design, sources, is_sdt));
   for (const auto& [name, text] : drivers.files) {
     fs::create_directories((folder / "drivers" / name).parent_path());
     write("drivers/" + name, text);

@@ -1,4 +1,5 @@
 #include <chip/block_design/import_design.h>
+#include <chip/handoff/device_tree.h>
 
 #include <vp/text.h>
 
@@ -46,7 +47,10 @@ class Tables {
       each(text, include->second, 2, false);
     }
     const auto canonical = driver_.scripts.find("xdefine_canonical_xpars");
-    if (canonical != driver_.scripts.end()) each(text, canonical->second, 2, true);
+    if (canonical != driver_.scripts.end()) {
+      each(text, canonical->second, 2, true);
+      if (knows_device_tree()) device_tree_names(text, canonical->second);
+    }
     return text;
   }
 
@@ -58,19 +62,42 @@ class Tables {
     const std::string& name = config->second[1];
     const std::size_t end = file.rfind("_g.c");
     if (end == std::string::npos || file.find('/') != std::string::npos) return {};
-    std::string text = "#include \"xparameters.h\"\n#include \"" + file.substr(0, end) +
-                       ".h\"\n\n#ifndef SDT\n" + name + "_Config " + name + "_ConfigTable[] = {\n";
-    for (const Module* module : instances_) {
-      text += "  {";
-      for (std::size_t i = 2; i < config->second.size(); ++i)
-        text += (i == 2 ? "XPAR_" : ", XPAR_") + upper(module->instance) + "_" +
-                plain(config->second[i]);
-      text += "},\n";
-    }
-    return {file, text + "};\n#endif\n"};
+    const std::string start = name + "_Config " + name + "_ConfigTable[] = {\n";
+    const std::string text =
+        "#include \"xparameters.h\"\n#include \"" + file.substr(0, end) + ".h\"\n\n";
+    const std::string classic = start + rows(config->second, false) + "};\n";
+    if (!knows_device_tree()) return {file, text + classic};
+    return {file, text + "#ifndef SDT\n" + classic + "#else\n" + start +
+                      rows(config->second, true) + "  {NULL}};\n#endif\n"};
   }
 
  private:
+  /// Drivers of HLS do from 2023.2 on; others have one kind of row in both flows.
+  bool knows_device_tree() const {
+    return std::any_of(driver_.sources.begin(), driver_.sources.end(), [](const auto& source) {
+      return source.second.find("#ifdef SDT") != std::string::npos;
+    });
+  }
+
+  static std::string kind_of(const Module& module) {
+    return device_tree::compatible(module.ip(), vp::split(module.vlnv, ':').back());
+  }
+  /// With a system device tree an instance has the name of its kind in the place of a number.
+  std::string rows(const std::vector<std::string>& words, bool is_sdt) const {
+    std::string text;
+    for (const Module* module : instances_) {
+      const char* before = "  {";
+      for (std::size_t i = 2; i < words.size(); ++i) {
+        const bool is_kind = is_sdt && words[i] == "DEVICE_ID";
+        text += before + (is_kind ? '"' + kind_of(*module) + '"'
+                                  : "XPAR_" + upper(module->instance) + "_" + plain(words[i]));
+        before = ", ";
+      }
+      text += "},\n";
+    }
+    return text;
+  }
+
   static std::string word(const std::vector<std::string>& words, std::size_t n) {
     return n < words.size() ? words[n] : std::string();
   }
@@ -96,6 +123,23 @@ class Tables {
         define(text, start + "_" + plain(words[i]), value);
       }
     }
+  }
+
+  /// XPAR_FILTER_0_BASEADDR and XPAR_XFILTER_0_BASEADDR, whatever the IP calls its bus: the first
+  /// one's.
+  void device_tree_names(std::string& text, const std::vector<std::string>& words) {
+    const auto is_base = [](const std::string& one) {
+      return one.find("BASEADDR") != std::string::npos;
+    };
+    const auto base = std::find_if(words.begin(), words.end(), is_base);
+    if (base == words.end()) return;
+    std::string lines;
+    for (std::size_t n = 0; n < instances_.size(); ++n) {
+      const std::string value = handoff::parameter(instances_[n]->parameters, *base);
+      define(lines, upper(instances_[n]->instance) + "_BASEADDR", value);
+      define(lines, upper(word(words, 1)) + "_" + std::to_string(n) + "_BASEADDR", value);
+    }
+    if (!lines.empty()) text += "#ifdef SDT\n" + lines + "#endif\n";
   }
 
   const OwnDriver& driver_;

@@ -262,12 +262,16 @@ std::uint32_t fclk_output(unsigned number) {
   return first_fclk + number;
 }
 
+std::string compatible(const std::string& ip, const std::string& version) {
+  return "xlnx," + dashes(ip) + "-" + version;
+}
+
 Node pl_node(const PlDevice& device) {
   const Class* const known = class_of(device);
   Node node{(known ? known->node : device.ip) + ("@" + hex(device.base).substr(2)), device.label};
-  std::vector<std::string> compatible{"xlnx," + dashes(device.ip) + "-" + device.version};
-  if (known) compatible.emplace_back(known->older);
-  node.properties = {texts("compatible", compatible),
+  std::vector<std::string> kinds{compatible(device.ip, device.version)};
+  if (known) kinds.emplace_back(known->older);
+  node.properties = {texts("compatible", kinds),
                      hex_numbers("reg", {static_cast<std::uint32_t>(device.base),
                                          static_cast<std::uint32_t>(device.size)})};
   add_interrupts(node, device);

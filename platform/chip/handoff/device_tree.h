@@ -74,6 +74,8 @@ std::vector<std::uint32_t> shared_interrupt(std::uint32_t id);
 /// The output of clkc that is FCLK_CLK`number`.
 std::uint32_t fclk_output(unsigned number);
 
+/// What a device tree calls the kind of an IP: "xlnx,axi-dma-7.1".
+std::string compatible(const std::string& ip, const std::string& version);
 /// Its node, as the vendor's device tree generator writes it.
 Node pl_node(const PlDevice& device);
 /// The bus that holds these devices.

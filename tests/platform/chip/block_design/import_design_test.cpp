@@ -117,6 +117,15 @@ BOOST_AUTO_TEST_CASE(drivers_of_own_ip_have_the_tables_of_their_instances) {
   BOOST_TEST(has(files.files[1].second,
                  "XOwn_ConfigTable[] = {\n  {XPAR_OWN_0_DEVICE_ID, "
                  "XPAR_OWN_0_S00_AXI_BASEADDR},\n};"));
+  BOOST_TEST(!has(files.files[1].second + files.names, "SDT"), "it is the same in both flows");
+  driver.sources = {{"xown.h", "#ifdef SDT\n  char *Name;\n#else\n  u16 DeviceId;\n#endif\n"}};
+  const DriverFiles both = driver_files(handoff, {driver}, "");
+  BOOST_TEST(has(both.names,
+                 "#ifdef SDT\n#define XPAR_OWN_0_BASEADDR 0x43C00000\n"
+                 "#define XPAR_XOWN_0_BASEADDR 0x43C00000\n#endif\n"));
+  BOOST_TEST(has(both.files[1].second,
+                 "#else\nXOwn_Config XOwn_ConfigTable[] = {\n  {\"xlnx,own-1.0\", "
+                 "XPAR_OWN_0_S00_AXI_BASEADDR},\n  {NULL}};\n#endif\n"));
   driver.peripherals = {"another"};
   BOOST_TEST(driver_files(handoff, {driver}, "").files.empty());
 }
