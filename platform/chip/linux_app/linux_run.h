@@ -89,6 +89,7 @@ class LinuxRun {
   [[noreturn]] void fail(const std::string& problem) const;
   std::string place();
 
+  static void print(const std::string& line);
   static void on_interrupt(void* uio);
   static void on_alarm(void* alarm);
 
