@@ -11,10 +11,9 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from testing_page import ROOT, put
+
 REPORT = os.path.join(ROOT, "build", "release", "tests.xml")
-PAGE = os.path.join(ROOT, "docs", "testing.md")
-BEGIN, END = "<!-- counts: scripts/test_counts.py -->\n", "<!-- end of counts -->\n"
 
 # What a program of tests says at its end: test cases, assertions.
 SAID = [
@@ -101,12 +100,7 @@ def main():
              lines("platform/*.cpp", "platform/*.h", "vp/*.cpp", "vp/*.h", "models/*.cpp", "models/*.h",
                    "sw/*.cpp", "sw/*.h", "sw/*.c"),
              lines("tests/*.cpp", "tests/*.h"), len(seeds), len({path.split("/")[3] for path in seeds})))
-    with open(PAGE, encoding="utf-8") as file:
-        page = file.read()
-    before, rest = page.split(BEGIN)
-    after = rest.split(END)[1]
-    with open(PAGE, "w", encoding="utf-8") as file:
-        file.write(before + BEGIN + "\n" + text + "\n" + END + after)
+    put("counts", "scripts/test_counts.py", text)
 
 
 if __name__ == "__main__":
