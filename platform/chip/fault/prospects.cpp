@@ -97,6 +97,9 @@ class Prospects::MemoryUse : public xilinx::Bram::Reader {
   void finish() { resolve(waiting_.begin(), waiting_.end()); }
 
   bool reads() override { return reader_ && reader_->reads(); }
+  bool reads_now(std::uint32_t first, std::uint32_t count) override {
+    return reader_ && reader_->reads_now(first, count);
+  }
   void before_write(std::uint32_t first, std::uint32_t count) override {
     resolve(waiting_.lower_bound(first), waiting_.lower_bound(first + count));
     if (reader_) reader_->before_write(first, count);
