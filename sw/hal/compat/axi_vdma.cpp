@@ -366,12 +366,14 @@ void XAxiVdma_DmaStop(XAxiVdma* InstancePtr, u16 Direction) {
 void XAxiVdma_DmaRegisterDump(XAxiVdma* InstancePtr, u16 Direction) {
   const XAxiVdma_Channel& channel = channel_of(InstancePtr, Direction);
   if (!channel.IsValid) return;
+  const auto word = [](u32 value) { return static_cast<unsigned>(value); };
+  const auto buffers = [&](u32 offset) {
+    return word(XAxiVdma_ReadReg(channel.StartAddrBase, offset));
+  };
   xil_printf("%s: VDMACR %x, VDMASR %x, VSIZE %x, HSIZE %x, FRMDLY_STRIDE %x\r\n",
-             channel.IsRead ? "MM2S" : "S2MM", read(channel, XAXIVDMA_CR_OFFSET),
-             read(channel, XAXIVDMA_SR_OFFSET),
-             XAxiVdma_ReadReg(channel.StartAddrBase, XAXIVDMA_VSIZE_OFFSET),
-             XAxiVdma_ReadReg(channel.StartAddrBase, XAXIVDMA_HSIZE_OFFSET),
-             XAxiVdma_ReadReg(channel.StartAddrBase, XAXIVDMA_STRD_FRMDLY_OFFSET));
+             channel.IsRead ? "MM2S" : "S2MM", word(read(channel, XAXIVDMA_CR_OFFSET)),
+             word(read(channel, XAXIVDMA_SR_OFFSET)), buffers(XAXIVDMA_VSIZE_OFFSET),
+             buffers(XAXIVDMA_HSIZE_OFFSET), buffers(XAXIVDMA_STRD_FRMDLY_OFFSET));
 }
 
 int XAxiVdma_SetFrameCounter(XAxiVdma* InstancePtr, XAxiVdma_FrameCounter* FrameCounterCfgPtr) {
