@@ -303,7 +303,7 @@ BOOST_AUTO_TEST_CASE(camera_files) {
   run_refuses({"z1.0", "--camera", "missing.yaml"}, {"missing.yaml"});
   run_refuses({"z1.0", "--camera", "."}, {"'.'"});
   camera_refused("", {"empty"});
-  camera_refused("just words\n", {"no calibration"});
+  camera_refused("just words\n", {"no entries in YAML"});
   camera_refused("camera_matrix: [1, 2\n", {"is not YAML"});
   camera_refused("image_width: 640\nimage_height: 480\n", {"camera_matrix"});
   camera_refused(calibration("1, 2, 3"), {"3x3"});
