@@ -99,11 +99,9 @@ class VdmaChannel : public vp::Clocked {
   void halt();
   void update();
 
-  const axi_vdma::ChannelOffsets offsets_;
   const char* const title_;  ///< "MM2S"
   const GenlockMode genlock_;
   const bool dre_;
-  vp::RegisterBank& bank_;
   vp::Register &cr_, &sr_, &vsize_, &hsize_, &stride_;
   std::vector<vp::Register*> addresses_;
   vp::Signal<bool>& introut_;

@@ -74,6 +74,7 @@ std::string value_text(const Property& property) {
   for (const std::string& string : property.strings) parts.push_back(quoted(string));
   for (const std::vector<Cell>& group : property.groups) {
     std::vector<std::string> cells;
+    cells.reserve(group.size());
     for (const Cell& cell : group) {
       cells.push_back(!cell.label.empty()    ? "&" + cell.label
                       : property.hexadecimal ? hex(cell.number)
