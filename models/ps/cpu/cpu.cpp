@@ -275,9 +275,14 @@ void Cpu::nothing_runs(const char* call) {
   throw vp::ProtocolError(std::string(call) + "() was called, but no program runs");
 }
 
+Answerer Cpu::answerer_at(std::uint32_t address) const {
+  return device_ ? device_(address) : Answerer{};
+}
+
 std::string Cpu::device_at(std::uint32_t address) const {
-  const std::string device = device_ ? device_(address) : std::string();
-  return device.empty() ? device : " (" + device + ")";
+  const Answerer answerer = answerer_at(address);
+  if (answerer.name.empty()) return {};
+  return " (" + answerer.name + (answerer.is_modelled ? ")" : ": not modelled)");
 }
 
 // The general way: anything may be behind the sockets.
@@ -303,10 +308,10 @@ void Cpu::transport(bool read, std::uint32_t address, std::uint32_t& value) {
 
 void Cpu::refuse(tlm::tlm_response_status status, bool read, std::uint32_t address) {
   // A block that the chip has and the platform has not is no place where nothing answers.
-  const std::string device = device_at(address);
-  const bool is_missing = device.find("not modelled") != std::string::npos;
-  fail(std::string("data abort: ") + (read ? "read of " : "write to ") + vp::hex(address) + device +
-       (is_missing ? std::string() : std::string(": ") + answer_text(status)));
+  const std::string answer =
+      answerer_at(address).is_modelled ? ": " + std::string(answer_text(status)) : "";
+  fail(std::string("data abort: ") + (read ? "read of " : "write to ") + vp::hex(address) +
+       device_at(address) + answer);
 }
 
 }  // namespace ps

@@ -57,6 +57,12 @@ class TestBench {
 };
 
 class DmaAllocator;
+
+/// What a program reaches at an address.
+struct Answerer {
+  std::string name;         ///< for messages; empty: nothing is there
+  bool is_modelled = true;  ///< false: the chip has a block there, and the platform has none
+};
 struct Cores;
 
 /// A core without instruction set: one thread that runs a program natively and gives it the HAL.
@@ -138,10 +144,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::uintptr_t stack_end() const { return stack_end_; }
   /// First byte and one past the last of the stack in the DDR; {0, 0}: it is elsewhere.
   std::pair<std::uintptr_t, std::uintptr_t> stack() const;
-  /// Names the device at an address in messages, or returns "".
-  void name_devices(std::function<std::string(std::uint32_t)> device) {
-    device_ = std::move(device);
-  }
+  /// Names the device at an address.
+  void name_devices(std::function<Answerer(std::uint32_t)> device) { device_ = std::move(device); }
   /// Describes a register's value, "axi_dma_0.MM2S_DMASR: 0x00000002 (Idle 1)", or returns "".
   void describe_registers(
       std::function<std::string(std::uint32_t address, std::uint32_t value)> d) {
@@ -426,6 +430,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Transfer transfer);
   void transport(bool read, std::uint32_t address, std::uint32_t& value);
   [[noreturn]] void refuse(tlm::tlm_response_status status, bool read, std::uint32_t address);
+  Answerer answerer_at(std::uint32_t address) const;
+  /// " (name)" for messages; empty if nothing is there.
   std::string device_at(std::uint32_t address) const;
   [[noreturn]] void stop(std::exception_ptr error);
   [[noreturn]] void fail(const std::string& problem);
@@ -452,7 +458,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   Program* program_ = nullptr;
   TestBench* bench_ = nullptr;
   DmaAllocator* dma_memory_ = nullptr;
-  std::function<std::string(std::uint32_t)> device_;
+  std::function<Answerer(std::uint32_t)> device_;
   std::function<std::string(std::uint32_t, std::uint32_t)> describe_register_;
   std::function<Request()> describe_request_;
   std::function<std::string()> locate_program_;

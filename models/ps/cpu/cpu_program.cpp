@@ -140,14 +140,12 @@ void Cpu::report(const vp::Fault& fault) {
     text += ": its " + std::to_string(settings_.stack_size / 1024) + " KiB are used up (" +
             settings_.stack_size.name() + ")";
   } else if (fault.address_known && fault.address <= ~std::uint32_t{0}) {
-    const std::string device = device_at(static_cast<std::uint32_t>(fault.address));
-    if (device.find("not modelled") != std::string::npos) {
-      text += device;
-    } else if (!device.empty()) {
-      text += device +
-              ", a device address: dereference no pointer to it, use hal_read32() and "
-              "hal_write32()";
-    }
+    const auto address = static_cast<std::uint32_t>(fault.address);
+    const Answerer answerer = answerer_at(address);
+    text += device_at(address);
+    if (!answerer.name.empty() && answerer.is_modelled)
+      text +=
+          ", a device address: dereference no pointer to it, use hal_read32() and hal_write32()";
   }
   if (code_) {
     fault_calls_.assign(fault.frames,
@@ -161,7 +159,7 @@ bool Cpu::on_fault(std::uintptr_t address, void* context) {
   constexpr std::uintptr_t first_register = 0x4000'0000;  // UG585 table 4-1
   if (LineGuard::on_fault(address, context)) return true;
   if (!ProgramWatch::runs || !running_ || address < first_register || address > ~std::uint32_t{0} ||
-      running_->device_at(static_cast<std::uint32_t>(address)).empty()) {
+      running_->answerer_at(static_cast<std::uint32_t>(address)).name.empty()) {
     return false;
   }
   return PointerAccess::divert(context, address, &Cpu::make_access);

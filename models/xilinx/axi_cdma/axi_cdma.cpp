@@ -5,7 +5,7 @@
 
 #include <vp/report.h>
 #include <vp/text.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -14,14 +14,6 @@ namespace {
 using namespace axi_cdma;
 
 constexpr std::uint32_t boundary = 4096;  // AXI: a burst never crosses it
-
-vp::RegisterBankOptions cdma_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = axi_cdma::address_bits;
-  return options;
-}
 
 }  // namespace
 
@@ -36,7 +28,8 @@ AxiCdma::AxiCdma(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiC
                    "BTT to the first address: register, command and the DataMover's 8 (PG022)"),
       read_clocks("read_clocks", 20, vp::Unit::cycles, {0, 1000}, vp::Source::published,
                   "address to first word from the DDR through HP (pynqz2-ram-tester)"),
-      s_axi_lite("s_axi_lite", axi_cdma::registers, cdma_options(), &s_axi_aclk.scheduler()),
+      s_axi_lite("s_axi_lite", axi_cdma::registers, axi_lite_options(axi_cdma::address_bits),
+                 &s_axi_aclk.scheduler()),
       m_axi("m_axi", s_axi_aclk.scheduler()),
       cr_(s_axi_lite[CDMACR]),
       sr_(s_axi_lite[CDMASR]),

@@ -7,7 +7,7 @@
 #include <vp/error.h>
 #include <vp/report.h>
 #include <vp/text.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -16,14 +16,6 @@ namespace {
 using namespace axi_dma;
 
 constexpr std::uint32_t reset_pin = 1;  // listener id; 0: a stream
-
-vp::RegisterBankOptions bank_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = address_bits;
-  return options;
-}
 
 [[noreturn]] void not_built(const AxiDma& dma, const char* part) {
   throw std::logic_error(std::string(dma.name()) + " was built without its " + part);
@@ -50,7 +42,7 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
                "build option Allow Unaligned Transfers, write channel (PG021)"),
       burst_beats("burst_beats", build.burst_beats, vp::Unit::none, {2, 256}, vp::Source::published,
                   "largest burst in words (thesis 4.4.2: 32)"),
-      s_axi_lite("s_axi_lite", registers, bank_options(), &aclk.scheduler()),
+      s_axi_lite("s_axi_lite", registers, axi_lite_options(address_bits), &aclk.scheduler()),
       memory_words_(build.memory_words) {
   if (!include_mm2s && !include_s2mm) {
     throw vp::InputError(std::string(this->name()) +

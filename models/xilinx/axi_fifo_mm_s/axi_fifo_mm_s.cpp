@@ -3,7 +3,7 @@
 #include <string>
 
 #include <vp/report.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -14,14 +14,6 @@ using namespace axi_fifo_mm_s;
 constexpr std::uint32_t bytes_per_word = 4;
 constexpr std::uint32_t reserved_words = 4;  // of each FIFO (PG080)
 constexpr std::uint32_t no_id = 0, reset_id = 1;
-
-vp::RegisterBankOptions fifo_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = axi_fifo_mm_s::address_bits;
-  return options;
-}
 
 std::uint32_t words_of(std::uint32_t bytes) {
   return (bytes + bytes_per_word - 1) / bytes_per_word;
@@ -43,7 +35,8 @@ AxiFifoMmS::AxiFifoMmS(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
                     vp::Source::published, "build option Receive FIFO Depth (PG080)"),
       has_tkeep("has_tkeep", build.has_tkeep, vp::Source::published,
                 "build option Enable TKEEP (PG080)"),
-      s_axi("s_axi", axi_fifo_mm_s::registers, fifo_options(), &s_axi_aclk.scheduler()),
+      s_axi("s_axi", axi_fifo_mm_s::registers, axi_lite_options(axi_fifo_mm_s::address_bits),
+            &s_axi_aclk.scheduler()),
       isr_(s_axi[ISR]),
       ier_(s_axi[IER]) {
   wire();

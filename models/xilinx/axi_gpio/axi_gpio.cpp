@@ -1,7 +1,7 @@
 #include <xilinx/axi_gpio/axi_gpio.h>
 
 #include <vp/clock_scheduler.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 #include <algorithm>
 
@@ -26,14 +26,6 @@ constexpr std::uint32_t all_ones = 0xFFFFFFFF;
 
 // Listener ids: pins of channel 1, pins of channel 2, the reset.
 constexpr std::uint32_t pins_1 = 1, pins_2 = 2, reset_pin = 3;
-
-vp::RegisterBankOptions bank_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = address_bits;
-  return options;
-}
 
 }  // namespace
 
@@ -116,7 +108,7 @@ AxiGpio::AxiGpio(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiG
                     "pin to register: 4 synchroniser stages and a register (HDL of v2.0)"),
       interrupt_latency("interrupt_latency", 2, vp::Unit::cycles, {0, 8}, vp::Source::published,
                         "register to interrupt status (HDL of v2.0)"),
-      s_axi("s_axi", registers, bank_options(), &s_axi_aclk.scheduler()),
+      s_axi("s_axi", registers, axi_lite_options(address_bits), &s_axi_aclk.scheduler()),
       gpio("gpio", build.gpio, *this),
       gpio2("gpio2", build.gpio2, *this),
       gpio_data(s_axi[GPIO_DATA]),

@@ -1,6 +1,6 @@
 #include <xilinx/axi_iic/axi_iic.h>
 
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -10,14 +10,6 @@ using namespace axi_iic;
 
 // Periods of SCL.
 constexpr std::uint64_t start_periods = 1, byte_periods = 9, stop_periods = 1;
-
-vp::RegisterBankOptions iic_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = axi_iic::address_bits;
-  return options;
-}
 
 std::uint32_t less_one(std::size_t count) {
   return count == 0 ? 0 : static_cast<std::uint32_t>(count - 1);
@@ -32,7 +24,8 @@ AxiIic::AxiIic(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiIic
                vp::Source::published, "build option SCL Clock Frequency (PG090)"),
       gpo_width("gpo_width", build.gpo_width, vp::Unit::none, {1, 8}, vp::Source::published,
                 "build option General Purpose Output Width (PG090)"),
-      s_axi("s_axi", axi_iic::registers, iic_options(), &s_axi_aclk.scheduler()),
+      s_axi("s_axi", axi_iic::registers, axi_lite_options(axi_iic::address_bits),
+            &s_axi_aclk.scheduler()),
       gpo("gpo", gpo_width),
       gie_(s_axi[GIE]),
       isr_(s_axi[ISR]),

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -11,14 +11,6 @@ namespace {
 using namespace axi_intc;
 
 constexpr std::uint32_t reset_pin = 32;  // listener ids below are inputs
-
-vp::RegisterBankOptions intc_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = axi_intc::address_bits;
-  return options;
-}
 
 }  // namespace
 
@@ -32,7 +24,8 @@ AxiIntc::AxiIntc(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const AxiI
                    "build option Interrupts type: a 1 for each edge (PG099)"),
       input_latency("input_latency", 3, vp::Unit::cycles, {1, 8}, vp::Source::published,
                     "input to ISR: 2 synchroniser stages and a register (HDL of v4.1)"),
-      s_axi("s_axi", axi_intc::registers, intc_options(), &s_axi_aclk.scheduler()),
+      s_axi("s_axi", axi_intc::registers, axi_lite_options(axi_intc::address_bits),
+            &s_axi_aclk.scheduler()),
       isr_(s_axi[ISR]),
       ier_(s_axi[IER]),
       mer_(s_axi[MER]) {

@@ -4,7 +4,7 @@
 #include <vp/ip.h>
 #include <vp/text.h>
 #include <xilinx/axi_dma/axi_dma.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 

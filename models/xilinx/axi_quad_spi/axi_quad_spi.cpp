@@ -3,7 +3,7 @@
 #include <utility>
 
 #include <vp/report.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -12,14 +12,6 @@ namespace {
 using namespace axi_quad_spi;
 
 constexpr std::uint64_t bits_per_word = 8;
-
-vp::RegisterBankOptions quad_spi_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = axi_quad_spi::address_bits;
-  return options;
-}
 
 }  // namespace
 
@@ -33,7 +25,8 @@ AxiQuadSpi::AxiQuadSpi(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
                   "build option No. of Slaves (PG153)"),
       fifo_depth("fifo_depth", build.fifo_depth, vp::Unit::none, {16, 256}, vp::Source::published,
                  "build option FIFO Depth (PG153)"),
-      s_axi("s_axi", axi_quad_spi::registers, quad_spi_options(), &s_axi_aclk.scheduler()),
+      s_axi("s_axi", axi_quad_spi::registers, axi_lite_options(axi_quad_spi::address_bits),
+            &s_axi_aclk.scheduler()),
       ext_spi_clk_(ext_spi_clk ? *ext_spi_clk : s_axi_aclk),
       gie_(s_axi[DGIER]),
       isr_(s_axi[IPISR]),

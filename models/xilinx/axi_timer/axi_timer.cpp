@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -11,14 +11,6 @@ namespace {
 using namespace axi_timer;
 
 constexpr std::uint32_t reset_pin = 2;  // listener ids: 0 and 1 are the capture pins
-
-vp::RegisterBankOptions timer_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = axi_timer::address_bits;
-  return options;
-}
 
 }  // namespace
 
@@ -29,7 +21,8 @@ AxiTimer::AxiTimer(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const Ax
                   "build option Width of the Timer (PG079)"),
       one_timer_only("one_timer_only", build.one_timer_only, vp::Source::published,
                      "build option Enable Timer 2 is off (PG079)"),
-      s_axi("s_axi", axi_timer::registers, timer_options(), &s_axi_aclk.scheduler()) {
+      s_axi("s_axi", axi_timer::registers, axi_lite_options(axi_timer::address_bits),
+            &s_axi_aclk.scheduler()) {
   for (const std::uint32_t at : {TCSR0, TCSR1}) {
     timers_.push_back({s_axi[at], s_axi[at + TLR0], s_axi[at + TCR0]});
   }

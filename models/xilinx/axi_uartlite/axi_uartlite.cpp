@@ -3,21 +3,13 @@
 #include <algorithm>
 
 #include <vp/report.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
 namespace {
 
 using namespace axi_uartlite;
-
-vp::RegisterBankOptions uartlite_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = axi_uartlite::address_bits;
-  return options;
-}
 
 }  // namespace
 
@@ -33,7 +25,8 @@ AxiUartlite::AxiUartlite(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
                  "build option Parity (PG142)"),
       odd_parity("odd_parity", build.odd_parity, vp::Source::published,
                  "build option Parity (PG142): odd, else even"),
-      s_axi("s_axi", axi_uartlite::registers, uartlite_options(), &s_axi_aclk.scheduler()) {
+      s_axi("s_axi", axi_uartlite::registers, axi_lite_options(axi_uartlite::address_bits),
+            &s_axi_aclk.scheduler()) {
   wire();
 }
 

@@ -4,7 +4,7 @@
 
 #include <vp/error.h>
 #include <xilinx/bram/bram.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -12,44 +12,36 @@ namespace {
 
 using namespace axi_vdma;
 
-vp::RegisterBankOptions vdma_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = address_bits;
-  return options;
-}
-
 }  // namespace
 
 AxiVdma::AxiVdma(sc_core::sc_module_name name, vp::Clock& s_axi_lite_aclk, vp::Clock& mm2s_aclk,
                  vp::Clock& s2mm_aclk, const AxiVdmaBuild& build)
     : Clocked(name, s_axi_lite_aclk),
       Ip(build.mm2s.include ? &mm2s_aclk : &s2mm_aclk),
-      s_axi_lite("s_axi_lite", registers, vdma_options(), &s_axi_lite_aclk.scheduler()),
-      build_(build) {
+      frame_stores("frame_stores", build.frame_stores, vp::Unit::none, {1, most_frame_stores},
+                   vp::Source::published, "build option Frame Buffers (PG020)"),
+      s_axi_lite("s_axi_lite", registers, axi_lite_options(address_bits),
+                 &s_axi_lite_aclk.scheduler()) {
   if (!build.mm2s.include && !build.s2mm.include)
     throw vp::InputError(std::string(this->name()) + ": it has no channel: build one");
   if (build.mm2s.include) {
-    mm2s_ = std::make_unique<VdmaReader>("mm2s", mm2s_aclk, s_axi_lite, build.mm2s, mm2s_introut);
+    mm2s_ = std::make_unique<VdmaReader>("mm2s", mm2s_aclk, s_axi_lite, build.mm2s, frame_stores,
+                                         mm2s_introut);
   } else {
     remove_channel(axi_vdma::mm2s);
   }
   if (build.s2mm.include) {
-    s2mm_ = std::make_unique<VdmaWriter>("s2mm", s2mm_aclk, s_axi_lite, build.s2mm, s2mm_introut);
+    s2mm_ = std::make_unique<VdmaWriter>("s2mm", s2mm_aclk, s_axi_lite, build.s2mm, frame_stores,
+                                         s2mm_introut);
   } else {
     remove_channel(axi_vdma::s2mm);
     s_axi_lite[S2MM_VDMA_IRQ_MASK].remove();
   }
   if (has_internal_genlock()) {
-    mm2s_->lock_to(s2mm_.get());
-    s2mm_->lock_to(mm2s_.get());
+    mm2s_->lock_to(*s2mm_);
+    s2mm_->lock_to(*mm2s_);
   }
   vp::Register& park = s_axi_lite[PARK_PTR_REG];
-  park.after_write([this, &park](std::uint32_t) {
-    if (mm2s_) mm2s_->park_at(park & 0x1F);
-    if (s2mm_) s2mm_->park_at(park >> 8 & 0x1F);
-  });
   park.computed_by([this, &park] {
     const std::uint32_t reads = mm2s_ ? mm2s_->store() : 0, writes = s2mm_ ? s2mm_->store() : 0;
     return park.value() | reads << 16 | writes << 24;
@@ -57,13 +49,13 @@ AxiVdma::AxiVdma(sc_core::sc_module_name name, vp::Clock& s_axi_lite_aclk, vp::C
 }
 
 bool AxiVdma::has_internal_genlock() const {
-  const GenlockMode reads = build_.mm2s.genlock, writes = build_.s2mm.genlock;
+  if (!mm2s_ || !s2mm_) return false;
+  const GenlockMode reads = mm2s_->genlock(), writes = s2mm_->genlock();
   const auto pair = [&](GenlockMode leads, GenlockMode follows) {
     return (reads == leads && writes == follows) || (writes == leads && reads == follows);
   };
-  return mm2s_ && s2mm_ &&
-         (pair(GenlockMode::master, GenlockMode::slave) ||
-          pair(GenlockMode::dynamic_master, GenlockMode::dynamic_slave));
+  return pair(GenlockMode::master, GenlockMode::slave) ||
+         pair(GenlockMode::dynamic_master, GenlockMode::dynamic_slave);
 }
 
 void AxiVdma::remove_channel(const ChannelOffsets& offsets) {

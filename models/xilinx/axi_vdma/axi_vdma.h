@@ -15,6 +15,7 @@ namespace xilinx {
 
 /// Build options, as Vivado asks for them.
 struct AxiVdmaBuild {
+  std::uint32_t frame_stores = 3;  ///< 1 to 16
   VdmaChannelBuild mm2s, s2mm;
 };
 
@@ -30,6 +31,8 @@ class AxiVdma : public vp::Clocked, public vp::Ip {
           vp::Clock& s2mm_aclk, const AxiVdmaBuild& build = {});
   const char* kind() const override { return "xilinx::AxiVdma"; }
 
+  vp::Parameter<std::uint32_t> frame_stores;
+
   vp::In<bool> axi_resetn{"axi_resetn"};  ///< may be left open
   vp::RegisterBank s_axi_lite;
   vp::Signal<bool> mm2s_introut{"mm2s_introut"};  ///< level, active high
@@ -38,7 +41,6 @@ class AxiVdma : public vp::Clocked, public vp::Ip {
   /// Null: not built.
   VdmaReader* mm2s() const { return mm2s_.get(); }
   VdmaWriter* s2mm() const { return s2mm_.get(); }
-  const AxiVdmaBuild& build() const { return build_; }
   /// Both channels are locked inside the core.
   bool has_internal_genlock() const;
 
@@ -51,7 +53,6 @@ class AxiVdma : public vp::Clocked, public vp::Ip {
   vp::IpEstimate own_estimate() const override;
   void remove_channel(const axi_vdma::ChannelOffsets& offsets);
 
-  const AxiVdmaBuild build_;
   std::unique_ptr<VdmaReader> mm2s_;
   std::unique_ptr<VdmaWriter> s2mm_;
 };

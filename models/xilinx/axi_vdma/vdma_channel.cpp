@@ -19,10 +19,9 @@ constexpr std::uint32_t sr_count = 0x00FF0000;
 
 VdmaChannel::VdmaChannel(sc_core::sc_module_name name, vp::Clock& clock, vp::RegisterBank& bank,
                          const ChannelOffsets& offsets, const VdmaChannelBuild& build,
-                         const char* memory_name, vp::Signal<bool>& introut)
+                         std::uint32_t frame_stores, const char* memory_name,
+                         vp::Signal<bool>& introut)
     : Clocked(name, clock),
-      frame_stores("frame_stores", build.frame_stores, vp::Unit::none, {1, most_frame_stores},
-                   vp::Source::published, "build option Frame Buffers (PG020)"),
       memory_bytes("memory_bytes", build.memory_bytes, vp::Unit::bytes, {4, 128},
                    vp::Source::published, "build option Memory Map Data Width, in bytes (PG020)"),
       stream_bytes("stream_bytes", build.stream_bytes, vp::Unit::bytes, {1, 128},
@@ -36,15 +35,18 @@ VdmaChannel::VdmaChannel(sc_core::sc_module_name name, vp::Clock& clock, vp::Reg
       title_(offsets.control == mm2s.control ? "MM2S" : "S2MM"),
       genlock_(build.genlock),
       dre_(build.dre),
+      frame_stores_(frame_stores),
+      park_shift_(offsets.park_shift),
       cr_(bank[offsets.control]),
       sr_(bank[offsets.status]),
       vsize_(bank[offsets.vsize]),
       hsize_(bank[offsets.hsize]),
       stride_(bank[offsets.stride]),
+      park_(bank[PARK_PTR_REG]),
       introut_(introut) {
   for (std::uint32_t i = 0; i < most_frame_stores; ++i) {
     addresses_.push_back(&bank[offsets.first_address + 4 * i]);
-    if (i >= frame_stores) addresses_.back()->remove();
+    if (i >= frame_stores_) addresses_.back()->remove();
   }
   // The delay exists where a plain slave follows (vendor's HDL); as master there is no genlock.
   if (genlock_ == GenlockMode::slave) {
@@ -57,10 +59,9 @@ VdmaChannel::VdmaChannel(sc_core::sc_module_name name, vp::Clock& clock, vp::Reg
 }
 
 // Where both channels are locked inside the core the bit is 1 after reset (vendor's HDL).
-void VdmaChannel::lock_to(const VdmaChannel* other) {
-  other_ = other;
-  const bool follows = genlock_ != GenlockMode::master;
-  if (other && follows) cr_.set_reset_value(cr_.reset_value() | vdmacr::GenlockSrc);
+void VdmaChannel::lock_to(const VdmaChannel& other) {
+  other_ = &other;
+  if (genlock_ != GenlockMode::master) cr_.set_reset_value(cr_.reset_value() | vdmacr::GenlockSrc);
 }
 
 void VdmaChannel::wire() {
@@ -106,7 +107,7 @@ bool VdmaChannel::is_order_possible() {
     problem = "the stride, " + std::to_string(stride) + ", is no multiple of " +
               std::to_string(memory_bytes) + " bytes, which a build without realignment needs";
   }
-  for (std::uint32_t i = 0; i < frame_stores && problem.empty() && !dre_; ++i) {
+  for (std::uint32_t i = 0; i < frame_stores_ && problem.empty() && !dre_; ++i) {
     if (*addresses_[i] % memory_bytes != 0) {
       problem = "START_ADDRESS" + std::to_string(i + 1) + " is no multiple of " +
                 std::to_string(memory_bytes) + " bytes, which a build without realignment needs";
@@ -133,8 +134,8 @@ VdmaChannel::Frame VdmaChannel::begin_frame() {
                  ": genlock with another core (GenlockSrc = 0) is not modelled: "
                  "the frame stores follow one another");
   }
-  store_ = parks ? parked_ : next_store(locked ? other_ : nullptr);
-  store_ %= frame_stores;
+  store_ = parks ? park_ >> park_shift_ & park_mask : next_store(locked ? other_ : nullptr);
+  store_ %= frame_stores_;
   begun_ = true;
   return {vsize_, hsize_, stride_ & 0xFFFF, *addresses_[store_]};
 }
@@ -190,7 +191,7 @@ void VdmaChannel::reset() {
 }
 
 std::uint32_t VdmaChannel::store_behind(std::uint32_t store, std::uint32_t frames) const {
-  return (store + frame_stores - frames % frame_stores) % frame_stores;
+  return (store + frame_stores_ - frames % frame_stores_) % frame_stores_;
 }
 
 void VdmaChannel::update() {

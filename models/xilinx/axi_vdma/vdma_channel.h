@@ -21,7 +21,6 @@ enum class GenlockMode : std::uint8_t { master, slave, dynamic_master, dynamic_s
 struct VdmaChannelBuild {
   bool include = true;
   GenlockMode genlock = GenlockMode::master;
-  std::uint32_t frame_stores = 3;   ///< 1 to 16, of both channels
   std::uint32_t memory_bytes = 8;   ///< of a beat: 4 to 128
   std::uint32_t stream_bytes = 4;   ///< of a beat: 1 to 128
   std::uint32_t burst_beats = 16;   ///< 2 to 256
@@ -32,10 +31,11 @@ struct VdmaChannelBuild {
 /// What both channels do: registers, frame stores, the count of frames, errors and the interrupt.
 class VdmaChannel : public vp::Clocked {
  public:
-  /// The other one of the core; null: there is none, or no bus between both.
-  void lock_to(const VdmaChannel* other);
-  /// Of PARK_PTR_REG, as software wrote it.
-  void park_at(std::uint32_t store) { parked_ = store; }
+  /// The core has a bus between both channels.
+  void lock_to(const VdmaChannel& other);
+  GenlockMode genlock() const { return genlock_; }
+  /// Addresses need no alignment.
+  bool has_dre() const { return dre_; }
   /// The one under way, or the last one.
   std::uint32_t store() const { return store_; }
   /// A frame is under way.
@@ -47,7 +47,6 @@ class VdmaChannel : public vp::Clocked {
   /// A hardware reset of the core, or a soft reset of the channel.
   void reset();
 
-  vp::Parameter<std::uint32_t> frame_stores;
   vp::Parameter<std::uint32_t> memory_bytes;
   vp::Parameter<std::uint32_t> stream_bytes;
   vp::Parameter<std::uint32_t> burst_beats;
@@ -59,7 +58,7 @@ class VdmaChannel : public vp::Clocked {
  protected:
   VdmaChannel(sc_core::sc_module_name name, vp::Clock& clock, vp::RegisterBank& bank,
               const axi_vdma::ChannelOffsets& offsets, const VdmaChannelBuild& build,
-              const char* memory_name, vp::Signal<bool>& introut);
+              std::uint32_t frame_stores, const char* memory_name, vp::Signal<bool>& introut);
 
   static constexpr std::uint64_t never = vp::Clock::never;
   static constexpr std::uint32_t burst_boundary = 4096;  ///< AXI: a burst never crosses it
@@ -68,7 +67,6 @@ class VdmaChannel : public vp::Clocked {
     std::uint32_t lines = 0, bytes = 0, stride = 0, address = 0;
   };
 
-  void end_of_elaboration() override { Clocked::end_of_elaboration(); }
   /// It runs, and VSIZE was written since.
   bool armed() const { return armed_; }
   /// Takes what the registers say, for a frame in the store that is next.
@@ -87,8 +85,8 @@ class VdmaChannel : public vp::Clocked {
   virtual std::uint32_t next_store(const VdmaChannel* other) const = 0;
 
   std::uint32_t store_behind(std::uint32_t store, std::uint32_t frames) const;
-  std::uint32_t following() const { return begun_ ? (store_ + 1) % frame_stores : 0; }
-  GenlockMode genlock() const { return genlock_; }
+  std::uint32_t following() const { return begun_ ? (store_ + 1) % frame_stores_ : 0; }
+  std::uint32_t frame_stores() const { return frame_stores_; }
   std::uint32_t delay() const { return stride_ >> 24 & 0x1F; }
 
  private:
@@ -102,7 +100,9 @@ class VdmaChannel : public vp::Clocked {
   const char* const title_;  ///< "MM2S"
   const GenlockMode genlock_;
   const bool dre_;
-  vp::Register &cr_, &sr_, &vsize_, &hsize_, &stride_;
+  const std::uint32_t frame_stores_;
+  const unsigned park_shift_;
+  vp::Register &cr_, &sr_, &vsize_, &hsize_, &stride_, &park_;
   std::vector<vp::Register*> addresses_;
   vp::Signal<bool>& introut_;
   const VdmaChannel* other_ = nullptr;
@@ -110,7 +110,7 @@ class VdmaChannel : public vp::Clocked {
   bool told_of_genlock_ = false;
   bool begun_ = false;
   std::int64_t newest_ = -1;
-  std::uint32_t store_ = 0, parked_ = 0;
+  std::uint32_t store_ = 0;
 };
 
 }  // namespace xilinx

@@ -6,8 +6,9 @@
 namespace xilinx {
 
 VdmaReader::VdmaReader(sc_core::sc_module_name name, vp::Clock& clock, vp::RegisterBank& bank,
-                       const VdmaChannelBuild& build, vp::Signal<bool>& introut)
-    : VdmaChannel(name, clock, bank, axi_vdma::mm2s, build, "m_axi_mm2s", introut),
+                       const VdmaChannelBuild& build, std::uint32_t frame_stores,
+                       vp::Signal<bool>& introut)
+    : VdmaChannel(name, clock, bank, axi_vdma::mm2s, build, frame_stores, "m_axi_mm2s", introut),
       address_clocks("address_clocks", 14, vp::Unit::cycles, {1, 1000}, vp::Source::published,
                      "start of a frame to its first address (PG020)"),
       read_clocks("read_clocks", 20, vp::Unit::cycles, {0, 1000}, vp::Source::published,

@@ -15,7 +15,7 @@ namespace xilinx {
 class VdmaReader : public VdmaChannel {
  public:
   VdmaReader(sc_core::sc_module_name name, vp::Clock& clock, vp::RegisterBank& bank,
-             const VdmaChannelBuild& build, vp::Signal<bool>& introut);
+             const VdmaChannelBuild& build, std::uint32_t frame_stores, vp::Signal<bool>& introut);
   const char* kind() const override { return "xilinx::VdmaReader"; }
 
   vp::Parameter<std::uint32_t> address_clocks;

@@ -12,19 +12,21 @@ namespace {
 
 using namespace axi_vdma;
 
-/// The bit of S2MM_VDMA_IRQ_MASK for an error of the stream.
-std::uint32_t mask_of(std::uint32_t error) {
-  return error == vdmasr::SOFEarlyErr   ? 1
-         : error == vdmasr::EOLEarlyErr ? 2
-         : error == vdmasr::SOFLateErr  ? 4
-                                        : 8;
-}
-
 }  // namespace
 
+const VdmaWriter::StreamError VdmaWriter::few_lines{
+    vdmasr::SOFEarlyErr, 1u << 0, "a frame has fewer lines than VSIZE (SOFEarlyErr)"};
+const VdmaWriter::StreamError VdmaWriter::short_line{vdmasr::EOLEarlyErr, 1u << 1,
+                                                     "a line is shorter than HSIZE (EOLEarlyErr)"};
+const VdmaWriter::StreamError VdmaWriter::many_lines{
+    vdmasr::SOFLateErr, 1u << 2, "a frame has more lines than VSIZE (SOFLateErr)"};
+const VdmaWriter::StreamError VdmaWriter::long_line{vdmasr::EOLLateErr, 1u << 3,
+                                                    "a line is longer than HSIZE (EOLLateErr)"};
+
 VdmaWriter::VdmaWriter(sc_core::sc_module_name name, vp::Clock& clock, vp::RegisterBank& bank,
-                       const VdmaChannelBuild& build, vp::Signal<bool>& introut)
-    : VdmaChannel(name, clock, bank, axi_vdma::s2mm, build, "m_axi_s2mm", introut),
+                       const VdmaChannelBuild& build, std::uint32_t frame_stores,
+                       vp::Signal<bool>& introut)
+    : VdmaChannel(name, clock, bank, axi_vdma::s2mm, build, frame_stores, "m_axi_s2mm", introut),
       write_clocks("write_clocks", 16, vp::Unit::cycles, {1, 1000}, vp::Source::published,
                    "beat from the stream to its word on the bus: 14 and 2 (PG020)"),
       gap_clocks("gap_clocks", 11, vp::Unit::cycles, {1, 1000}, vp::Source::published,
@@ -66,7 +68,7 @@ void VdmaWriter::abandon() {
 std::uint32_t VdmaWriter::next_store(const VdmaChannel* reader) const {
   const std::uint32_t next = following();
   if (!reader || !reader->has_begun() || genlock() != GenlockMode::dynamic_master) return next;
-  return next == reader->store() && frame_stores > 1 ? (next + 1) % frame_stores : next;
+  return next == reader->store() && frame_stores() > 1 ? (next + 1) % frame_stores() : next;
 }
 
 void VdmaWriter::edge() {
@@ -85,13 +87,12 @@ void VdmaWriter::take_beat(std::uint64_t cycle) {
   if (!armed()) return;
   if (start_of_frame_ && (start_of_frame_->get() & 1) != 0) {
     if (in_frame_ && !is_closed_) {
-      report(vdmasr::SOFEarlyErr, "a frame has fewer lines than VSIZE (SOFEarlyErr)");
+      report(few_lines);
       abandon();
     }
     begin();
   } else if (is_closed_) {
-    if (has_begun() && !std::exchange(was_late_, true))
-      report(vdmasr::SOFLateErr, "a frame has more lines than VSIZE (SOFLateErr)");
+    if (has_begun() && !std::exchange(was_late_, true)) report(many_lines);
     return;
   }
   take_bytes(s_axis.link().beat(), cycle);
@@ -109,8 +110,7 @@ void VdmaWriter::take_bytes(const vp::StreamBytes& beat, std::uint64_t cycle) {
   for (std::uint32_t lane = 0; lane < stream_bytes; ++lane) {
     if (!beat.keep[lane]) continue;
     if (byte_ == frame_.bytes) {
-      if (!std::exchange(is_too_long_, true))
-        report(vdmasr::EOLLateErr, "a line is longer than HSIZE (EOLLateErr)");
+      if (!std::exchange(is_too_long_, true)) report(long_line);
       return;
     }
     collected_.push_back(beat.data[lane]);
@@ -123,8 +123,7 @@ void VdmaWriter::take_bytes(const vp::StreamBytes& beat, std::uint64_t cycle) {
 }
 
 void VdmaWriter::end_line(std::uint64_t cycle) {
-  if (byte_ < frame_.bytes)
-    report(vdmasr::EOLEarlyErr, "a line is shorter than HSIZE (EOLEarlyErr)");
+  if (byte_ < frame_.bytes) report(short_line);
   close_burst(cycle);
   byte_ = 0;
   is_too_long_ = false;
@@ -138,9 +137,9 @@ void VdmaWriter::close_burst(std::uint64_t cycle) {
   collected_ = {};
 }
 
-void VdmaWriter::report(std::uint32_t error, const char* what) {
-  vp::warn(*this, "/markervp/axi_vdma/stream", std::string("S2MM: ") + what);
-  raise(error, (irq_mask_ & mask_of(error)) == 0);
+void VdmaWriter::report(const StreamError& error) {
+  vp::warn(*this, "/markervp/axi_vdma/stream", std::string("S2MM: ") + error.text);
+  raise(error.status, (irq_mask_ & error.irq_mask) == 0);
 }
 
 // ---- memory side

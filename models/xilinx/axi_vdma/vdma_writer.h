@@ -17,7 +17,7 @@ namespace xilinx {
 class VdmaWriter : public VdmaChannel {
  public:
   VdmaWriter(sc_core::sc_module_name name, vp::Clock& clock, vp::RegisterBank& bank,
-             const VdmaChannelBuild& build, vp::Signal<bool>& introut);
+             const VdmaChannelBuild& build, std::uint32_t frame_stores, vp::Signal<bool>& introut);
   const char* kind() const override { return "xilinx::VdmaWriter"; }
 
   vp::Parameter<std::uint32_t> write_clocks;
@@ -34,6 +34,11 @@ class VdmaWriter : public VdmaChannel {
     std::vector<unsigned char> data;
   };
   enum class Bus { free, busy, answering };
+  struct StreamError {
+    std::uint32_t status, irq_mask;  ///< bits of S2MM_VDMASR and of S2MM_VDMA_IRQ_MASK
+    const char* text;
+  };
+  static const StreamError few_lines, short_line, many_lines, long_line;
 
   void end_of_elaboration() override;
   void edge() override;
@@ -46,7 +51,7 @@ class VdmaWriter : public VdmaChannel {
   void take_bytes(const vp::StreamBytes& beat, std::uint64_t cycle);
   void end_line(std::uint64_t cycle);
   void close_burst(std::uint64_t cycle);
-  void report(std::uint32_t error, const char* what);
+  void report(const StreamError& error);
   void drive_bus(std::uint64_t cycle);
   std::uint64_t next_edge(std::uint64_t cycle) const;
 

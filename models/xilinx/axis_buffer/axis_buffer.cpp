@@ -2,7 +2,7 @@
 
 #include <vp/error.h>
 #include <xilinx/bram/bram.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,7 @@
 
 #include <vp/error.h>
 #include <vp/report.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 namespace xilinx {
 
@@ -14,14 +14,6 @@ namespace {
 using namespace clk_wiz;
 
 constexpr double thousandths = 1000.0, hz_per_mhz = 1e6;
-
-vp::RegisterBankOptions wizard_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = clk_wiz::address_bits;
-  return options;
-}
 
 std::uint32_t in_thousandths(std::uint32_t whole, std::uint32_t fraction) {
   return whole * 1000 + fraction;
@@ -35,7 +27,8 @@ ClkWiz::ClkWiz(sc_core::sc_module_name name, vp::Clock& clk_in1, const ClkWizBui
       Ip(&clk_in1),
       lock_us("lock_us", 100, vp::Unit::none, {1, 10'000}, vp::Source::published,
               "longest time until an MMCM has locked, us (DS187)"),
-      s_axi_lite("s_axi_lite", clk_wiz::registers, wizard_options(), &clk_in1.scheduler()),
+      s_axi_lite("s_axi_lite", clk_wiz::registers, axi_lite_options(clk_wiz::address_bits),
+                 &clk_in1.scheduler()),
       clk_in1_(clk_in1),
       limits_(manager_limits(build.pll, build.grade)),
       build_(build) {

@@ -1,6 +1,6 @@
 #include <xilinx/proc_sys_reset/proc_sys_reset.h>
 
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 #include <initializer_list>
 
 namespace xilinx {

@@ -1,6 +1,6 @@
 #include <xilinx/xadc_wiz/xadc_wiz.h>
 
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 #include <array>
 
@@ -15,14 +15,6 @@ constexpr std::array alarm_pins{
     "vccpint_alarm_out",   "vccpaux_alarm_out", "vccddro_alarm_out", "ot_out"};
 constexpr std::uint64_t adcclk_per_conversion = 26;  // UG480
 
-vp::RegisterBankOptions wizard_options() {
-  vp::RegisterBankOptions options;
-  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
-  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
-  options.address_bits = xadc_wiz::address_bits;
-  return options;
-}
-
 }  // namespace
 
 XadcWiz::XadcWiz(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const XadcWizBuild& build)
@@ -33,7 +25,8 @@ XadcWiz::XadcWiz(sc_core::sc_module_name name, vp::Clock& s_axi_aclk, const Xadc
       adcclk_divisor("adcclk_divisor", build.adcclk_divisor, vp::Unit::none, {2, 255},
                      vp::Source::published,
                      "clocks of the registers in one of ADCCLK, 26 MHz at most (UG480)"),
-      s_axi_lite("s_axi_lite", xadc_wiz::registers, wizard_options(), &s_axi_aclk.scheduler()),
+      s_axi_lite("s_axi_lite", xadc_wiz::registers, axi_lite_options(xadc_wiz::address_bits),
+                 &s_axi_aclk.scheduler()),
       initial_(build.initial),
       gie_(s_axi_lite[GIER]),
       isr_(s_axi_lite[IPISR]),

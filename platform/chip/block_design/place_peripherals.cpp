@@ -197,7 +197,6 @@ xilinx::VdmaChannelBuild vdma_channel(const Placement& at, const std::string& ch
   xilinx::VdmaChannelBuild build;
   build.include = at.flag("C_INCLUDE_" + channel);
   build.genlock = static_cast<xilinx::GenlockMode>(at.number("C_" + channel + "_GENLOCK_MODE"));
-  build.frame_stores = word(at, "C_NUM_FSTORES");
   build.memory_bytes = word(at, "C_M_AXI_" + channel + "_DATA_WIDTH") / bits_per_byte;
   build.stream_bytes = word(at, stream + "_TDATA_WIDTH") / bits_per_byte;
   build.burst_beats = word(at, "C_" + channel + "_MAX_BURST_LENGTH");
@@ -208,6 +207,7 @@ xilinx::VdmaChannelBuild vdma_channel(const Placement& at, const std::string& ch
 
 Placed place_vdma(const Placement& at) {
   xilinx::AxiVdmaBuild build;
+  build.frame_stores = word(at, "C_NUM_FSTORES");
   build.mm2s = vdma_channel(at, "MM2S", "C_M_AXIS_MM2S");
   build.s2mm = vdma_channel(at, "S2MM", "C_S_AXIS_S2MM");
   vp::Clock& registers_clock = at.clock({"s_axi_lite_aclk"});

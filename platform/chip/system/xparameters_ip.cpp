@@ -114,14 +114,27 @@ void add_uartlite(Device& device, const xilinx::AxiUartlite& uart) {
   device.sdt_options = device.options;
 }
 
+/// What a channel is built with; one that is not built has the defaults of its options.
+xilinx::VdmaChannelBuild build_of(const xilinx::VdmaChannel* channel) {
+  xilinx::VdmaChannelBuild build;
+  build.include = channel != nullptr;
+  if (!channel) return build;
+  build.genlock = channel->genlock();
+  build.dre = channel->has_dre();
+  build.memory_bytes = channel->memory_bytes;
+  build.stream_bytes = channel->stream_bytes;
+  build.line_buffer = channel->line_buffer;
+  return build;
+}
+
 /// The debug registers are those of Vivado's usual build: counters of frames and delays.
 void add_vdma(Device& device, const xilinx::AxiVdma& vdma) {
   constexpr std::uint32_t address_width = 32, follows_streams = 1;
-  const xilinx::VdmaChannelBuild &mm2s = vdma.build().mm2s, &s2mm = vdma.build().s2mm;
+  const xilinx::VdmaChannelBuild mm2s = build_of(vdma.mm2s()), s2mm = build_of(vdma.s2mm());
   const auto number = [](xilinx::GenlockMode mode) { return static_cast<std::uint32_t>(mode); };
   device.driver = "AXIVDMA";
   device.compatible = "xlnx,axi-vdma-6.3";
-  device.options = {{"NUM_FSTORES", mm2s.frame_stores},
+  device.options = {{"NUM_FSTORES", vdma.frame_stores},
                     {"INCLUDE_MM2S", mm2s.include},
                     {"INCLUDE_MM2S_DRE", mm2s.dre},
                     {"M_AXI_MM2S_DATA_WIDTH", 8 * mm2s.memory_bytes},
@@ -156,7 +169,7 @@ void add_vdma(Device& device, const xilinx::AxiVdma& vdma) {
                     {"ADDR_WIDTH", address_width},
                     {"c_addr_width", address_width},
                     {"c_enable_vert_flip", 0}};
-  device.sdt_options = {{"NUM_FSTORES", mm2s.frame_stores},
+  device.sdt_options = {{"NUM_FSTORES", vdma.frame_stores},
                         {"INCLUDE_MM2S", mm2s.include},
                         {"INCLUDE_MM2S_DRE", mm2s.dre},
                         {"MM2S_DATA_WIDTH", 8 * mm2s.memory_bytes},

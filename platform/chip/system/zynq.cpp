@@ -1,6 +1,7 @@
 #include <chip/system/zynq.h>
 
 #include <cstring>
+#include <utility>
 
 #include <chip/system/hardware_map.h>
 #include <chip/system/ps_blocks.h>
@@ -114,12 +115,12 @@ bool Zynq::poke(std::uint32_t address, std::uint32_t word) {
 }
 
 // The buses have names of their own, which say nothing of what a program wanted there.
-std::string Zynq::answerer_at(std::uint32_t address) const {
+ps::Answerer Zynq::answerer_at(std::uint32_t address) const {
   std::string device = device_at(address);
   const bool is_bus = device == "peripheral_bus" || device == "private_bus";
-  if (!device.empty() && !is_bus) return device;
-  const PsBlock* block = ps_block_at(address);
-  return block ? std::string(block->name) + ": not modelled" : device;
+  const PsBlock* block = device.empty() || is_bus ? ps_block_at(address) : nullptr;
+  if (block) return {block->name, false};
+  return {std::move(device)};
 }
 
 std::string Zynq::device_at(std::uint32_t address) const {

@@ -56,7 +56,7 @@ struct Zynq {
 
  private:
   /// The same for messages: a block of the chip without a model is named, too.
-  std::string answerer_at(std::uint32_t address) const;
+  ps::Answerer answerer_at(std::uint32_t address) const;
   std::string request_text(const ps::Gic& gic, const ps::Gic::Request& request);
   bool look(tlm::tlm_command command, std::uint32_t address, std::uint32_t& word);
 

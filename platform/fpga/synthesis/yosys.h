@@ -33,8 +33,8 @@ class YosysFolder {
   /// In a text of Yosys' the design's own files instead of links and copies.
   void name_originals(std::string& text) const;
 
-  /// The command of a script behind which refuse_loops() knows of combinational loops: those of
-  /// words. Bit by bit some of them are none.
+  /// The command of a script behind which refuse_loops() knows of combinational loops: between
+  /// whole words, which need not be loops of bits.
   static constexpr const char* check = "tee -q -o check.txt check";
   /// Throws vp::InputError with file and line if there is one.
   void refuse_loops() const;

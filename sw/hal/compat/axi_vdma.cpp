@@ -13,8 +13,8 @@ namespace {
 using namespace axi_vdma;
 
 constexpr unsigned reset_polls = 500;
-constexpr u32 park_mask = 0x1F, most_lines = 0x1FFF, most_bytes = 0xFFFF;
-constexpr unsigned delay_shift = 24, write_shift = 8, read_store_shift = 16, write_store_shift = 24;
+constexpr u32 most_lines = 0x1FFF, most_bytes = 0xFFFF;
+constexpr unsigned delay_shift = 24, read_store_shift = 16, write_store_shift = 24;
 constexpr u32 fsync_shift = 5, fsync_mask = 3u << fsync_shift;
 constexpr u32 stream_errors =
     vdmasr::SOFEarlyErr | vdmasr::EOLEarlyErr | vdmasr::SOFLateErr | vdmasr::EOLLateErr;
@@ -73,7 +73,7 @@ int aligned(int bytes, int to) {
 }
 
 void park(const XAxiVdma_Channel& channel, u32 frame) {
-  const unsigned shift = channel.IsRead ? 0 : write_shift;
+  const unsigned shift = channel.IsRead ? mm2s.park_shift : s2mm.park_shift;
   const u32 others = XAxiVdma_ReadReg(channel.InstanceBase, PARK_PTR_REG) & ~(park_mask << shift);
   XAxiVdma_WriteReg(channel.InstanceBase, PARK_PTR_REG, others | (frame & park_mask) << shift);
 }

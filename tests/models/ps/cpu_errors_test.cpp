@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(nothing_mapped) {
 BOOST_AUTO_TEST_CASE(the_device_refuses) {
   Bench b;
   b.cpu.name_devices([](std::uint32_t address) {
-    return std::string(address == device_address + 4 ? "gpio" : "");
+    return ps::Answerer{address == device_address + 4 ? "gpio" : ""};
   });
   b.device.status = tlm::TLM_COMMAND_ERROR_RESPONSE;
   BOOST_TEST(

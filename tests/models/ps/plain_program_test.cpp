@@ -38,7 +38,7 @@ struct Run : Bench {
     cpu.connect(ddr->dma_memory());
     cpu.end_stack_at(ddr->dma_memory().first());
     cpu.name_devices([](std::uint32_t address) {
-      return address / 0x1000 == device_address / 0x1000 ? "device" : "";
+      return ps::Answerer{address / 0x1000 == device_address / 0x1000 ? "device" : ""};
     });
     first = what;
     device.value = [this](std::uint64_t) {

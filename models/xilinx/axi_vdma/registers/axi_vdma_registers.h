@@ -17,9 +17,11 @@ constexpr std::uint32_t most_frame_stores = 16;  ///< that one set of registers 
 /// Where a channel's registers lie.
 struct ChannelOffsets {
   std::uint32_t control, status, vsize, hsize, stride, first_address;
+  unsigned park_shift;  ///< of its frame store in PARK_PTR_REG, five bits wide
 };
-constexpr ChannelOffsets mm2s{0x00, 0x04, 0x50, 0x54, 0x58, 0x5C};
-constexpr ChannelOffsets s2mm{0x30, 0x34, 0xA0, 0xA4, 0xA8, 0xAC};
+constexpr ChannelOffsets mm2s{0x00, 0x04, 0x50, 0x54, 0x58, 0x5C, 0};
+constexpr ChannelOffsets s2mm{0x30, 0x34, 0xA0, 0xA4, 0xA8, 0xAC, 8};
+constexpr std::uint32_t park_mask = 0x1F;
 
 /// Bits of a VDMACR.
 namespace vdmacr {

@@ -78,9 +78,8 @@ std::string text_of_doubles(const marker::Board& board, const std::vector<BoardM
   }
   if (ids.empty()) return "";
   return fmt::format(
-      "more than one marker of ID {}: which one is the board's is not known, so none counts for "
-      "its "
-      "pose; is there one board in view?",
+      "more than one marker of ID {}: which one is the board's is not known, so they do not count "
+      "for its pose; is there one board in view?",
       fmt::join(ids, ", "));
 }
 

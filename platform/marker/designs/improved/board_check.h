@@ -44,7 +44,7 @@ BoardFit check_board(const marker::Board& board, const Camera& camera, const Pos
                      std::vector<BoardMarker>& markers);
 
 /// What to tell of the board's markers that are seen more than once, which count for nothing: two
-/// boards may be in view. Empty: there are none.
+/// boards may be in view. Empty if each is seen once.
 std::string text_of_doubles(const marker::Board& board, const std::vector<BoardMarker>& markers);
 
 /// The boards, as settings of the program, that all these markers fit: of those that fit about as

@@ -3,7 +3,7 @@
 #include <blob_stream.h>
 #include <marker_logic.h>
 #include <vp/error.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 #include <initializer_list>
 
 namespace platform {

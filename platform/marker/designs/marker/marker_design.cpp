@@ -12,7 +12,7 @@
 #include <vp/report.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <xilinx/common/estimate.h>
+#include <xilinx/common/axi_lite_ip.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -3,8 +3,17 @@
 #include <vp/ip.h>
 #include <vp/register_bank.h>
 
-/// What the estimates of the Xilinx IP share.
+/// What the Xilinx IP with registers on AXI4-Lite share.
 namespace xilinx {
+
+/// How their registers answer: holes are acknowledged, byte enables ignored.
+inline vp::RegisterBankOptions axi_lite_options(unsigned address_bits) {
+  vp::RegisterBankOptions options;
+  options.holes = vp::RegisterBankOptions::Holes::acknowledge;
+  options.byte_enables = vp::RegisterBankOptions::ByteEnables::ignore;
+  options.address_bits = address_bits;
+  return options;
+}
 
 /// Clocks in which an AXI4-Lite slave works for one access: the register stages of the IPIF from
 /// address to response (DS768).
