@@ -33,6 +33,8 @@ class Guard {
  protected:
   /// The next one; none: there is none yet, or, when it `waits`, the guard is gone.
   std::optional<Note> next_note(bool waits);
+  /// The process that waits: the ancestor of all that the command starts.
+  pid_t process() const { return process_; }
 
  private:
   [[noreturn]] void watch(const Become& become, const std::string& folder, int theirs) const;
@@ -52,6 +54,8 @@ class ProcessTree : private Guard {
 
   /// The command's own process.
   pid_t first() const { return first_; }
+  /// The ancestor of all of them, which only waits.
+  pid_t root() const { return process(); }
   /// A process that ended whose parent did not wait for it: first(), and those whose parent ended
   /// before. It is noted before its number is free. None: none has ended since the last call.
   std::optional<End> next_end() { return next_note(false); }

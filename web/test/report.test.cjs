@@ -57,10 +57,14 @@ after(async () => {
   fs.rmSync(folder, { recursive: true, force: true });
 });
 
+// A busy machine fails no test.
+const patience = 300_000;
+
 /** Opens a page, runs `use`, and checks that nothing went wrong meanwhile. */
 async function open(name, use, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...options });
   const page = await context.newPage();
+  page.setDefaultTimeout(patience);
   const problems = [];
   page.on("console", (message) => { if (["error", "warning"].includes(message.type())) problems.push(message.text()); });
   page.on("pageerror", (error) => problems.push(String(error)));
@@ -108,6 +112,7 @@ for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
 for (const name of ["run", "sweep"]) {
   test(`${name}: opens quickly`, async () => {
     const page = await browser.newPage();
+    page.setDefaultTimeout(patience);
     const session = await page.context().newCDPSession(page);
     await session.send("Performance.enable", { timeDomain: "threadTicks" });
     await page.goto("file://" + path.join(folder, name + ".html"));

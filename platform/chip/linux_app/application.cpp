@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <climits>
 #include <csignal>
 #include <cstdlib>
@@ -24,6 +25,7 @@
 #include <host/process.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/host_ticks.h>
 
 namespace platform {
 
@@ -224,6 +226,7 @@ LinuxApplication::LinuxApplication(const LinuxOptions& options)
 }
 
 LinuxApplication::~LinuxApplication() {
+  vp::HostTicks::follow(0);
   tree_.reset();
   for (const int descriptor : {socket_, output_}) {
     if (descriptor >= 0) ::close(descriptor);
@@ -257,6 +260,8 @@ void LinuxApplication::start(const std::string& folder, int memory, Print print)
   try {
     tree_.emplace(become);
     process_ = user_ = tree_->first();
+    // It computes while the platform waits for it.
+    vp::HostTicks::follow(tree_->root());
   } catch (const std::system_error& problem) {
     error = problem.code().value();
   }
@@ -343,11 +348,13 @@ std::string LinuxApplication::place() {
 
 // It answers at once, unless it has a handler of its own for that signal.
 std::string LinuxApplication::end_for_time() {
-  constexpr int most_waits = 500;  // it reads debug information, on a computer that may be busy
+  // It reads debug information, on a computer that may be busy. Ticks interrupt receive().
+  constexpr std::chrono::minutes longest_answer{1};
   look_for_end();
   if (ends_.count(user_) != 0) return {};
   ::kill(user_, linux_app::out_of_time);
-  for (int i = 0; i < most_waits && !silent_; ++i) {
+  const auto end = std::chrono::steady_clock::now() + longest_answer;
+  while (!silent_ && std::chrono::steady_clock::now() < end) {
     const std::optional<Asked> asked = receive();
     if (!asked || asked->request.what != What::died) continue;
     note_death(*asked);

@@ -1,3 +1,4 @@
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -5,6 +6,7 @@
 
 #include <atomic>
 #include <boost/test/unit_test.hpp>
+#include <csignal>
 
 namespace {
 
@@ -66,6 +68,27 @@ BOOST_AUTO_TEST_CASE(waiting_counts_too) {
   while (counter.spent < 2 * vp::HostTicks::period_ns) ::pause();
   vp::HostTicks::remove(counter);
   BOOST_TEST(counter.ticks >= 2u);
+}
+
+// As on a busy machine: a process that computes has the processor for a small part of the time.
+BOOST_AUTO_TEST_CASE(waiting_for_processes_that_compute_counts_by_their_processor_time) {
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    while (::fork() != 0) ::pause();
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (std::uint64_t until = 0;; ::usleep(18'000))
+      for (until = processor_ns() + 2'000'000; processor_ns() < until;) continue;
+  }
+  Counter counter;
+  vp::HostTicks::follow(parent);
+  vp::HostTicks::add(counter);
+  while (counter.ticks < 8) ::pause();
+  vp::HostTicks::remove(counter);
+  vp::HostTicks::follow(0);
+  ::kill(parent, SIGKILL);
+  ::waitpid(parent, nullptr, 0);
+  BOOST_TEST(counter.spent > 0u);
+  BOOST_TEST(counter.spent < 4 * vp::HostTicks::period_ns);
 }
 
 BOOST_AUTO_TEST_CASE(two_hear_and_who_left_hears_nothing) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 
 namespace vp {
@@ -17,7 +19,8 @@ class HostTicks {
    public:
     /// Called in a signal handler; may leave it with siglongjmp(). `spent_ns` is the host time
     /// since the last tick: the processor time of this process, so that a busy machine takes
-    /// nothing away from it, or the time that passed if it only waited. `context` is a ucontext_t.
+    /// nothing away from it, or the time that passed if it only waited, and those that it follows
+    /// did not compute. `context` is a ucontext_t.
     virtual void on_host_tick(std::uint64_t spent_ns, void* context) = 0;
 
    protected:
@@ -27,6 +30,9 @@ class HostTicks {
   /// At most eight at a time. Both may be called in signal handlers.
   static void add(Listener& listener);
   static void remove(Listener& listener);
+  /// The processor time of a process and of its descendants counts as this process' own, which
+  /// waits for them. 0: of none.
+  static void follow(pid_t process);
   /// For listeners: the next tick comes after a hundredth of the period.
   static void hurry();
 };
