@@ -136,7 +136,7 @@ void StreamInLink::connect(const Follow& follow) {
   });
   if (!strobes && pins_.strobe)
     follow(*port_.tkeep.signal(), pins_.strobe.part(0, std::min(pins_.strobe.bits(), 8u)));
-  for (auto& [part, wire] : parts) {
+  for (auto& [part, wire, reader] : parts) {
     follow(wire, pins_.of(part));
     if (!strobes && part.field == vp::StreamField::keep)
       follow(wire, pins_.strobe.part(part.low, part.bits));
@@ -169,7 +169,7 @@ void StreamOutLink::connect(const Follow& follow) {
   link.tkeep.defer_writes();
   link.tvalid.defer_writes();
   link.tlast.defer_writes();
-  for (auto& [part, wire] : link.parts()) {
+  for (auto& [part, wire, reader] : link.parts()) {
     const Pin pin = pins_.of(part);
     if (!pin) continue;  // TKEEP that the RTL does not have
     wire.defer_writes();

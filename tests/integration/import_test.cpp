@@ -70,15 +70,21 @@ BOOST_FIXTURE_TEST_CASE(faults_are_drawn_over_what_was_imported, Imported) {
   BOOST_TEST(campaign.at("modules").dump().find("pl.axi_dma_0") != std::string::npos);
 }
 
-BOOST_FIXTURE_TEST_CASE(a_stream_of_eight_bits_carries_the_same_bytes, Imported) {
-  write_handoff(replaced(kit::small_handoff().text(), kit::parameter("C_SG_LENGTH_WIDTH", "20"),
-                         kit::parameter("C_SG_LENGTH_WIDTH", "20") +
-                             kit::parameter("C_M_AXIS_MM2S_TDATA_WIDTH", "8") +
-                             kit::parameter("C_S_AXIS_S2MM_TDATA_WIDTH", "8")));
-  import();
-  const kit::Outcome ran = run_program();
-  BOOST_TEST(has(ran.out, "0 bytes wrong, length 101, interrupts 1, buttons 0, own 0"),
-             ran.out + ran.err);
+BOOST_FIXTURE_TEST_CASE(streams_of_other_widths_carry_the_same_bytes, Imported) {
+  for (const auto& [stream, memory] : {std::pair{"8", "32"}, {"64", "128"}}) {
+    std::string parameters = kit::parameter("C_SG_LENGTH_WIDTH", "20");
+    for (const char* name : {"C_M_AXIS_MM2S_TDATA_WIDTH", "C_S_AXIS_S2MM_TDATA_WIDTH"})
+      parameters += kit::parameter(name, stream);
+    for (const char* name : {"C_M_AXI_MM2S_DATA_WIDTH", "C_M_AXI_S2MM_DATA_WIDTH"})
+      parameters += kit::parameter(name, memory);
+    write_handoff(replaced(kit::small_handoff().text(), kit::parameter("C_SG_LENGTH_WIDTH", "20"),
+                           parameters));
+    import();
+    const kit::Outcome ran = run_program();
+    BOOST_TEST(has(ran.out, "0 bytes wrong, length 101, interrupts 1, buttons 0, own 0"),
+               ran.out + ran.err);
+    std::filesystem::remove_all(*this / "mine");
+  }
 }
 
 BOOST_FIXTURE_TEST_CASE(importing_again_keeps_what_the_user_changed, Imported) {

@@ -54,7 +54,7 @@ void AxiStream::join() {
   for (const StreamPart& part : parts_between(from, to)) {
     const bool whole = part.field == StreamField::keep || part.field == StreamField::strobe;
     const std::uint32_t initial = whole ? ~0u >> (32 - part.bits) : 0;
-    parts_.emplace_back(part, initial).wire.set_writer(master_->owner_);
+    parts_.emplace_back(part, initial, master_->owner_, slave_end_->owner_);
   }
 }
 
@@ -68,7 +68,7 @@ StreamBytes AxiStream::beat() const {
   };
   set_data(0, tdata.get());
   set_keep(0, std::min(bytes_, keep_lanes), tkeep.get());
-  for (const auto& [part, wire] : parts_) {
+  for (const auto& [part, wire, reader] : parts_) {
     if (part.field == StreamField::data) set_data(part.low / bits_per_byte, wire.get());
     if (part.field == StreamField::keep) set_keep(part.low, part.bits, wire.get());
   }
@@ -78,7 +78,7 @@ StreamBytes AxiStream::beat() const {
 void AxiStream::show(const StreamBytes& beat) {
   tdata = word_at(beat, 0);
   tkeep = static_cast<std::uint8_t>(lanes_at(beat, 0, std::min(bytes_, keep_lanes)));
-  for (auto& [part, wire] : parts_) {
+  for (auto& [part, wire, reader] : parts_) {
     if (part.field == StreamField::data) wire = word_at(beat, part.low / bits_per_byte);
     if (part.field == StreamField::keep) wire = lanes_at(beat, part.low, part.bits);
   }

@@ -43,7 +43,8 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
       burst_beats("burst_beats", build.burst_beats, vp::Unit::none, {2, 256}, vp::Source::published,
                   "largest burst in words (thesis 4.4.2: 32)"),
       s_axi_lite("s_axi_lite", registers, axi_lite_options(address_bits), &aclk.scheduler()),
-      memory_words_(build.memory_words) {
+      mm2s_widths(build.mm2s),
+      s2mm_widths(build.s2mm) {
   if (!include_mm2s && !include_s2mm) {
     throw vp::InputError(std::string(this->name()) +
                          ": include_mm2s and include_s2mm are both false: build one");
@@ -52,12 +53,27 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
     throw vp::InputError(std::string(burst_beats.name()) + " = " + std::to_string(burst_beats) +
                          ": must be a power of two from 2 to 256");
   }
+  check("mm2s", mm2s_widths);
+  check("s2mm", s2mm_widths);
   build_channels();
   build_scatter_gather();
   s_axi_lite.before_access([this] {
     if (mm2s_ && mm2s_->finishing()) mm2s_->bring_up_to(clock().cycle());
     if (s2mm_ && s2mm_->finishing()) s2mm_->bring_up_to(clock().cycle());
   });
+}
+
+void AxiDma::check(const std::string& channel, const DmaWidths& widths) const {
+  const auto fits = [](std::uint32_t bytes) {
+    return bytes >= word_bytes && bytes <= vp::most_stream_bytes && (bytes & (bytes - 1)) == 0;
+  };
+  if (fits(widths.memory_bytes) && fits(widths.stream_bytes) &&
+      widths.memory_bytes >= widths.stream_bytes)
+    return;
+  throw vp::InputError(std::string(name()) + ": " + channel + " has a memory of " +
+                       std::to_string(widths.memory_bytes) + " bytes and a stream of " +
+                       std::to_string(widths.stream_bytes) +
+                       ": both are powers of two from 4 to 128, and the memory is no narrower");
 }
 
 // 32 bit: the DataMover's FIFO for a burst is block memory (PG021). Its logic works on a beat a
@@ -68,9 +84,13 @@ vp::IpEstimate AxiDma::own_estimate() const {
   vp::IpEstimate e =
       axi_estimate("axi_dma", 250 + 900 * channels + sg * (400 + 350 * channels),
                    300 + 1300 * channels + sg * (500 + 450 * channels), 1.0 * channels);
-  if (memory_words_ > 1) {  // registers and multiplexers for another word, no deeper a memory
-    e.lut += 250;
-    e.ff += 400;
+  // Registers and multiplexers for each further word. The memory is no deeper; a block has 8 bytes.
+  for (const DmaWidths& widths : {mm2s_widths, s2mm_widths}) {
+    const std::uint32_t further = widths.beats_per_clock() * widths.stream_bytes / word_bytes - 1;
+    if (further == 0) continue;
+    e.lut += 250 * further;
+    e.ff += 400 * further;
+    e.bram36 += 1.0 * (widths.clocks_per_beat() - 1);
     e.uncertainty_percent = 50;
   }
   e.active_clocks = [this] { return beats(); };
@@ -80,14 +100,14 @@ vp::IpEstimate AxiDma::own_estimate() const {
 std::uint64_t AxiDma::beats() const {
   const std::uint64_t read = mm2s_ ? mm2s_->m_axi.link.bytes_read.get() : 0;
   const std::uint64_t written = s2mm_ ? s2mm_->m_axi.link.bytes_written.get() : 0;
-  return (read + written) / word_bytes;
+  return read / mm2s_widths.stream_bytes + written / s2mm_widths.stream_bytes;
 }
 
 void AxiDma::build_channels() {
   DmaChannel::Core& core = *this;
   if (include_mm2s) {
-    mm2s_ = std::make_unique<Mm2sChannel>(core, s_axi_lite, *this, burst_beats);
-    mm2s_->configure(length_width, mm2s_dre ? 1 : word_bytes);
+    mm2s_ = std::make_unique<Mm2sChannel>(core, s_axi_lite, *this, burst_beats, mm2s_widths);
+    mm2s_->configure(length_width, mm2s_dre ? 1 : mm2s_widths.memory_bytes);
     interrupts_.push_back({mm2s_.get(), &mm2s_introut});
   } else {
     for (const std::uint32_t offset :
@@ -97,8 +117,8 @@ void AxiDma::build_channels() {
     }
   }
   if (include_s2mm) {
-    s2mm_ = std::make_unique<S2mmChannel>(core, s_axi_lite, *this, burst_beats, memory_words_);
-    s2mm_->configure(length_width, s2mm_dre ? 1 : word_bytes * memory_words_);
+    s2mm_ = std::make_unique<S2mmChannel>(core, s_axi_lite, *this, burst_beats, s2mm_widths);
+    s2mm_->configure(length_width, s2mm_dre ? 1 : s2mm_widths.memory_bytes);
     interrupts_.push_back({s2mm_.get(), &s2mm_introut});
   } else {
     for (const std::uint32_t offset :

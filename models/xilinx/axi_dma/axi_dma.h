@@ -30,20 +30,18 @@ struct AxiDmaBuild {
   bool mm2s_dre = false;  ///< data realignment engine: unaligned addresses
   bool s2mm_dre = false;
   std::uint32_t burst_beats = 32;
-  /// Words that a clock writes to memory: Memory Map Data Width is 32 bits, or 64 behind a stream
-  /// of 32 (PG021).
-  std::uint32_t memory_words = 1;
+  DmaWidths mm2s, s2mm;
 };
 
-/// AXI DMA v7.1 (PG021) in direct register mode or with scatter-gather, register-accurate, 32-bit
-/// memory and stream (or 64-bit memory behind S2MM), one clock; without the control and status
-/// streams and several channels.
+/// AXI DMA v7.1 (PG021) in direct register mode or with scatter-gather, register-accurate, streams
+/// of 32 to 1024 bits, one clock; without the control and status streams and several channels.
 ///
 ///   platform: dma.mm2s().m_axi.link.socket.bind(...); dma.mm2s().m_axis(link);
 ///   dma.s2mm().s_axis(link); with include_sg dma.scatter_gather().m_axi.link.socket.bind(...);
 class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
  public:
-  /// Throws vp::InputError if neither channel is built or a burst is no power of two.
+  /// Throws vp::InputError if neither channel is built, a burst is no power of two, or a width is
+  /// none of the core's.
   AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild& build = {});
   const char* kind() const override { return "xilinx::AxiDma"; }
 
@@ -74,7 +72,10 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
                                                 std::uint32_t bytes)>;
   void check_buffers(BufferCheck check) { buffer_check_ = std::move(check); }
 
-  /// Words moved between memory and the core so far.
+  /// Of the build.
+  const DmaWidths mm2s_widths, s2mm_widths;
+
+  /// Beats of the streams moved between memory and the core so far.
   std::uint64_t beats() const;
   /// All bursts contend with those of other masters on the same path.
   void share_memory_path(MemoryPath& path);
@@ -107,6 +108,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   void check_buffer(const std::string& who, std::uint32_t address,
                     std::uint32_t bytes) const override;
 
+  void check(const std::string& channel, const DmaWidths& widths) const;
   void build_channels();
   void build_scatter_gather();
   void drive(Interrupt& interrupt);
@@ -115,7 +117,6 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   std::uint64_t run_soft_reset(std::uint64_t cycle);
   void reset();
 
-  const std::uint32_t memory_words_;
   std::unique_ptr<Mm2sChannel> mm2s_;
   std::unique_ptr<S2mmChannel> s2mm_;
   std::unique_ptr<ScatterGather> scatter_gather_;

@@ -8,10 +8,24 @@
 
 namespace xilinx {
 
+namespace {
+
+constexpr std::uint32_t port_bytes = 8;
+
+}  // namespace
+
 using namespace axi_dma;
 
+std::uint32_t DmaWidths::beats_per_clock() const {
+  return std::max(std::min(memory_bytes, port_bytes) / stream_bytes, 1u);
+}
+
+std::uint32_t DmaWidths::clocks_per_beat() const {
+  return std::max(stream_bytes / port_bytes, 1u);
+}
+
 DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name,
-                       bool counts_at_rest)
+                       const DmaWidths& widths, bool counts_at_rest)
     : dmacr(bank[offsets.dmacr]),
       dmasr(bank[offsets.dmasr]),
       curdesc(bank[offsets.curdesc]),
@@ -20,6 +34,7 @@ DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offset
       address_msb(bank[offsets.address_msb]),
       length(bank[offsets.length]),
       core_(core),
+      beat_bytes_(widths.stream_bytes),
       clock_(core.channel_clock()),
       name_(std::move(name)),
       counts_at_rest_(counts_at_rest) {
@@ -30,6 +45,11 @@ DmaChannel::DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offset
 }
 
 DmaChannel::~DmaChannel() = default;
+
+unsigned DmaChannel::burst_size(std::uint32_t beats, const DmaWidths& widths) {
+  constexpr unsigned largest = 4'096;
+  return std::min(beats * widths.stream_bytes, largest);
+}
 
 void DmaChannel::configure(std::uint32_t length_width, unsigned alignment) {
   length_width_ = length_width;
@@ -420,11 +440,12 @@ DmaChannel::Segment DmaChannel::segment_of(const Descriptor& from) const {
   if (segment.bytes == 0) {
     core_.warn("/markervp/axi_dma/length_zero",
                described() + " has a length of 0: the engine stops with DMAIntErr");
-  } else if (segment.bytes % word_bytes != 0 && !segment.ends_packet) {
+  } else if (segment.bytes % beat_bytes_ != 0 && !segment.ends_packet) {
     core_.warn("/markervp/axi_dma/partial_word",
                described() +
-                   " ends within a word of the packet: buffers before the last hold "
-                   "multiples of 4 bytes");
+                   " ends within a beat of the packet: buffers before the last hold "
+                   "multiples of " +
+                   std::to_string(beat_bytes_) + " bytes");
   }
   return segment;
 }

@@ -61,6 +61,22 @@ struct DmaTiming {
                       "soft reset, once outstanding bursts are over (HDL of v7.1)"};
 };
 
+/// Bytes of a beat of a channel's memory map and stream: powers of two, 4 to 128, the memory's no
+/// less than the stream's (PG021).
+///
+/// The port of the PS has 8 bytes (UG585): a beat of more takes it for several clocks. Behind S2MM
+/// a clock writes as many beats of the stream as memory and port have room for; MM2S reads one
+/// (assumed: the FIFO hides what a wider memory gains).
+struct DmaWidths {
+  std::uint32_t memory_bytes = 4;
+  std::uint32_t stream_bytes = 4;
+
+  /// Beats of the stream that a clock brings to memory.
+  std::uint32_t beats_per_clock() const;
+  /// Clocks that the port of the PS takes for a beat of the stream.
+  std::uint32_t clocks_per_beat() const;
+};
+
 class DescriptorRing;
 struct Descriptor;
 struct ScatterGather;
@@ -101,7 +117,7 @@ class DmaChannel {
 
   /// `counts_at_rest`: sample() is to run without a transfer, too.
   DmaChannel(Core& core, vp::RegisterBank& bank, const Offsets& offsets, std::string name,
-             bool counts_at_rest);
+             const DmaWidths& widths, bool counts_at_rest);
   virtual ~DmaChannel();
 
   vp::Register& dmacr;
@@ -197,7 +213,11 @@ class DmaChannel {
   /// Takes back what began and has moved nothing yet; tells how many that were.
   virtual unsigned withdraw_unused() { return 0; }
 
+  /// Bytes that a burst may have: it crosses no 4 KiB.
+  static unsigned burst_size(std::uint32_t beats, const DmaWidths& widths);
+
   Core& core_;
+  const unsigned beat_bytes_;  ///< of the stream
 
  private:
   enum class Phase { idle, accepted, moving };

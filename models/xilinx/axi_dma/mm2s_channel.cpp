@@ -19,12 +19,15 @@ constexpr DmaChannel::Offsets mm2s_offsets{MM2S_DMACR, MM2S_DMASR,  MM2S_CURDESC
 }  // namespace
 
 Mm2sChannel::Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
-                         std::uint32_t burst_beats)
-    : DmaChannel(core, bank, mm2s_offsets, "MM2S", false),
+                         std::uint32_t burst_beats, const DmaWidths& widths)
+    : DmaChannel(core, bank, mm2s_offsets, "MM2S", widths, false),
       m_axi("m_axi_mm2s", owner.clock().scheduler()),
       m_axis("m_axis_mm2s", owner),
-      burst_size_(burst_beats * word_bytes),
+      clocks_per_beat_(widths.clocks_per_beat()),
+      burst_size_(burst_size(burst_beats, widths)),
       fifo_size_(fifo_bursts * burst_size_) {
+  if (beat_bytes_ != word_bytes)
+    m_axis.set_shape({std::string(owner.name()) + ".m_axis_mm2s", beat_bytes_});
   owner.wake_on(m_axis.tready);
 }
 
@@ -92,9 +95,10 @@ unsigned Mm2sChannel::burst_bytes() const {
 void Mm2sChannel::request(std::uint64_t cycle) {
   const unsigned bytes = burst_bytes();
   Burst& burst = bursts_.emplace_back();
-  burst.lead = static_cast<unsigned>(read_address_ % word_bytes);
+  burst.lead = static_cast<unsigned>(read_address_ % beat_bytes_);
   burst.data.resize(bytes);
-  m_axi.read(read_address_, burst.data.data(), bytes, keyhole());
+  m_axi.transfer(tlm::TLM_READ_COMMAND, read_address_, burst.data.data(), bytes,
+                 keyhole() ? std::min(bytes, beat_bytes_) : bytes, nullptr);
   to_request_ -= bytes;
   buffered_ += bytes;
   if (!keyhole()) read_address_ += bytes;
@@ -111,8 +115,8 @@ void Mm2sChannel::schedule(Burst& burst, std::uint64_t cycle) {
   burst.response = m_axi.response();
   burst.first = std::max({burst.first, cycle, m_axi.path().read_free});
   const unsigned beats =
-      (burst.lead + static_cast<unsigned>(burst.data.size()) + word_bytes - 1) / word_bytes;
-  m_axi.path().read_free = bus_busy_until_ = burst.first + beats;
+      (burst.lead + static_cast<unsigned>(burst.data.size()) + beat_bytes_ - 1) / beat_bytes_;
+  m_axi.path().read_free = bus_busy_until_ = burst.first + beats * clocks_per_beat_;
 }
 
 bool Mm2sChannel::quiet(std::uint64_t cycle) const {
@@ -123,13 +127,16 @@ bool Mm2sChannel::quiet(std::uint64_t cycle) const {
 
 // The edge on which the last byte of the next beat is in the FIFO.
 std::uint64_t Mm2sChannel::next_beat_at() const {
-  unsigned needed = std::min<std::uint32_t>(to_send_, word_bytes);
+  unsigned needed = std::min<std::uint32_t>(to_send_, beat_bytes_);
   unsigned begin = taken_;
   for (const Burst& burst : bursts_) {
     if (burst.pending) return never;
     if (burst.response != tlm::TLM_OK_RESPONSE) return burst.first;
     const unsigned room = static_cast<unsigned>(burst.data.size()) - begin;
-    if (needed <= room) return burst.first + (burst.lead + begin + needed - 1) / word_bytes;
+    if (needed <= room) {
+      const unsigned beats = (burst.lead + begin + needed - 1) / beat_bytes_;
+      return burst.first + (beats + 1) * clocks_per_beat_ - 1;
+    }
     needed -= room;
     begin = 0;
   }
@@ -149,23 +156,11 @@ void Mm2sChannel::end_segment(std::uint64_t cycle) {
 // Offers the next beat if its data has arrived. Returns false if no beat can be offered.
 bool Mm2sChannel::offer(std::uint64_t cycle) {
   if (to_send_ == 0 || next_beat_at() > cycle) return false;
-  const unsigned bytes = std::min<std::uint32_t>(to_send_, word_bytes);
-  std::uint32_t data = 0;
-  for (unsigned i = 0; i < bytes; ++i) {
-    if (taken_ == bursts_.front().data.size()) {
-      bursts_.pop_front();
-      taken_ = 0;
-    }
-    const Burst& burst = bursts_.front();
-    if (burst.response != tlm::TLM_OK_RESPONSE) {
-      fail(cycle + core_.timing().completion_latency, error_bit(burst.response));
-      return false;
-    }
-    data |= std::uint32_t{burst.data[taken_++]} << (8 * i);
-  }
-  if (taken_ == bursts_.front().data.size()) {
-    bursts_.pop_front();
-    taken_ = 0;
+  const unsigned bytes = std::min<std::uint32_t>(to_send_, beat_bytes_);
+  unsigned char beat[vp::most_stream_bytes];
+  if (!collect(beat, bytes)) {
+    fail(cycle + core_.timing().completion_latency, error_bit(bursts_.front().response));
+    return false;
   }
   to_send_ -= bytes;
   buffered_ -= bytes;
@@ -173,8 +168,38 @@ bool Mm2sChannel::offer(std::uint64_t cycle) {
   if (!in_packet_) packet_begins();
   in_packet_ = true;
   const bool last = to_send_ == 0 && segments_.front().ends_packet;
-  m_axis.offer(data, last, static_cast<std::uint8_t>((1u << bytes) - 1));
+  show(beat, bytes, last);
   return true;
+}
+
+// Takes the next bytes out of the FIFO. False: the memory answered with an error.
+bool Mm2sChannel::collect(unsigned char* beat, unsigned bytes) {
+  for (unsigned done = 0; done < bytes;) {
+    const Burst& burst = bursts_.front();
+    if (burst.response != tlm::TLM_OK_RESPONSE) return false;
+    const unsigned count =
+        std::min(bytes - done, static_cast<unsigned>(burst.data.size()) - taken_);
+    std::memcpy(beat + done, burst.data.data() + taken_, count);
+    done += count;
+    taken_ += count;
+    if (taken_ == burst.data.size()) {
+      bursts_.pop_front();
+      taken_ = 0;
+    }
+  }
+  return true;
+}
+
+void Mm2sChannel::show(const unsigned char* beat, unsigned bytes, bool last) {
+  if (beat_bytes_ == word_bytes) {
+    std::uint32_t data = 0;
+    std::memcpy(&data, beat, bytes);
+    return m_axis.offer(data, last, static_cast<std::uint8_t>((1u << bytes) - 1));
+  }
+  vp::StreamBytes all;
+  std::copy(beat, beat + bytes, all.data.begin());
+  for (unsigned lane = 0; lane < bytes; ++lane) all.keep.set(lane);
+  m_axis.offer(all, last);
 }
 
 void Mm2sChannel::withdraw() {
@@ -194,7 +219,7 @@ std::uint64_t Mm2sChannel::next_edge(std::uint64_t cycle) const {
 
 // A transfer of one burst of whole words whose data is there at once: its time is known.
 bool Mm2sChannel::take_whole_burst(std::uint64_t cycle) {
-  if (uses_descriptors()) return false;
+  if (uses_descriptors() || beat_bytes_ != word_bytes) return false;
   const std::uint32_t bytes = to_request_;
   if (bytes != to_send_ || !bursts_.empty() || offering_) return false;
   if (burst_bytes() != bytes || keyhole()) return false;

@@ -12,7 +12,8 @@ namespace xilinx {
 /// Memory to stream: reads bursts ahead into a FIFO and sends one beat per clock.
 class Mm2sChannel : public DmaChannel, public vp::BurstSender {
  public:
-  Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner, std::uint32_t burst_beats);
+  Mm2sChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner, std::uint32_t burst_beats,
+              const DmaWidths& widths);
 
   MemoryPort m_axi;
   vp::AxiStreamMaster m_axis;
@@ -43,12 +44,15 @@ class Mm2sChannel : public DmaChannel, public vp::BurstSender {
   unsigned burst_bytes() const;
   void schedule(Burst& burst, std::uint64_t cycle);
   bool offer(std::uint64_t cycle);
+  bool collect(unsigned char* beat, unsigned bytes);
+  void show(const unsigned char* beat, unsigned bytes, bool last);
   void withdraw();
   void end_segment(std::uint64_t cycle);
   std::uint64_t next_edge(std::uint64_t cycle) const;
   std::uint64_t next_beat_at() const;
   bool take_whole_burst(std::uint64_t cycle);
 
+  const unsigned clocks_per_beat_;
   const unsigned burst_size_;  ///< bytes
   const unsigned fifo_size_;   ///< bytes
   std::deque<Burst> bursts_;

@@ -18,15 +18,20 @@ constexpr DmaChannel::Offsets s2mm_offsets{S2MM_DMACR, S2MM_DMASR,  S2MM_CURDESC
 }  // namespace
 
 S2mmChannel::S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner,
-                         std::uint32_t burst_beats, std::uint32_t memory_words)
-    : DmaChannel(core, bank, s2mm_offsets, "S2MM", true),
+                         std::uint32_t burst_beats, const DmaWidths& widths)
+    : DmaChannel(core, bank, s2mm_offsets, "S2MM", widths, true),
       m_axi("m_axi_s2mm", owner.clock().scheduler()),
       s_axis("s_axis_s2mm", owner),
-      burst_size_(burst_beats * word_bytes),
-      fifo_beats_(fifo_bursts * burst_beats),
-      memory_words_(memory_words) {
+      burst_size_(burst_size(burst_beats, widths)),
+      fifo_beats_(fifo_bursts * burst_size_ / beat_bytes_),
+      beats_per_clock_(widths.beats_per_clock()),
+      clocks_per_beat_(widths.clocks_per_beat()) {
   owner.wake_on(s_axis.tvalid);
-  s_axis.accept_source();
+  if (beat_bytes_ == word_bytes) {
+    s_axis.accept_source();
+  } else {
+    s_axis.set_shape({std::string(owner.name()) + ".s_axis_s2mm", beat_bytes_});
+  }
 }
 
 bool S2mmChannel::accepts_segment() const {
@@ -69,7 +74,9 @@ std::uint64_t S2mmChannel::move(std::uint64_t cycle) {
 
 void S2mmChannel::take_beats(std::uint64_t cycle) {
   if (!s_axis.source()) {
-    if (beat_) take_beat(s_axis.tdata, s_axis.tkeep, s_axis.tlast, cycle);
+    if (!beat_) return;
+    if (beat_bytes_ != word_bytes) return take_wide_beat(cycle);
+    take_beat(s_axis.tdata, s_axis.tkeep, s_axis.tlast, cycle);
   } else if (s_axis.source_changed() || cycle >= take_from_) {
     take_from_source(cycle);
   }
@@ -126,16 +133,32 @@ void S2mmChannel::take_beat(std::uint32_t data, std::uint8_t keep, bool last, st
   ++collected_beats_;
   for (unsigned lane = 0; lane < word_bytes; ++lane) {
     if ((keep >> lane & 1) == 0) continue;
-    if (received_ == capacity_) {
-      overflow_ = true;  // the packet is longer than LENGTH: nothing is written beyond
-      break;
-    }
-    collected_.push_back(static_cast<unsigned char>(data >> (8 * lane)));
-    ++received_;
-    if (!keyhole() && (write_address_ + collected_.size()) % burst_size_ == 0) close_burst(cycle);
+    if (!take_byte(static_cast<unsigned char>(data >> (8 * lane)), cycle)) break;
   }
   if (keyhole() && collected_.size() >= burst_size_) close_burst(cycle);
   end_beat(last, cycle);
+}
+
+void S2mmChannel::take_wide_beat(std::uint64_t cycle) {
+  const vp::StreamBytes beat = s_axis.link().beat();
+  ++collected_beats_;
+  for (unsigned lane = 0; lane < beat_bytes_; ++lane) {
+    if (beat.keep[lane] && !take_byte(beat.data[lane], cycle)) break;
+  }
+  if (keyhole() && collected_.size() >= burst_size_) close_burst(cycle);
+  end_beat(s_axis.tlast, cycle);
+}
+
+// False: the packet is longer than LENGTH, and nothing is written beyond.
+bool S2mmChannel::take_byte(unsigned char byte, std::uint64_t cycle) {
+  if (received_ == capacity_) {
+    overflow_ = true;
+    return false;
+  }
+  collected_.push_back(byte);
+  ++received_;
+  if (!keyhole() && (write_address_ + collected_.size()) % burst_size_ == 0) close_burst(cycle);
+  return true;
 }
 
 // The next descriptor has room for the rest of a packet; in direct register mode nothing has.
@@ -163,8 +186,8 @@ void S2mmChannel::close_burst(std::uint64_t cycle) {
   Burst burst;
   burst.ready = cycle + core_.timing().write_latency;
   burst.address = write_address_;
-  const auto lead = static_cast<unsigned>(write_address_ % word_bytes);
-  burst.beats = (lead + static_cast<unsigned>(collected_.size()) + word_bytes - 1) / word_bytes;
+  const auto lead = static_cast<unsigned>(write_address_ % beat_bytes_);
+  burst.beats = (lead + static_cast<unsigned>(collected_.size()) + beat_bytes_ - 1) / beat_bytes_;
   burst.data.swap(collected_);
   if (!spare_.empty()) {
     collected_.swap(spare_.back());
@@ -182,8 +205,8 @@ void S2mmChannel::close_burst(std::uint64_t cycle) {
 unsigned S2mmChannel::buffered_beats(std::uint64_t cycle) const {
   unsigned written = 0;
   if (bus_ == Bus::busy && cycle > burst_start_) {
-    written = static_cast<unsigned>(
-        std::min<std::uint64_t>((cycle - burst_start_) * memory_words_, bursts_.front().beats));
+    written = static_cast<unsigned>(std::min<std::uint64_t>(
+        (cycle - burst_start_) * beats_per_clock_ / clocks_per_beat_, bursts_.front().beats));
   } else if (bus_ == Bus::answering) {
     written = bursts_.front().beats;
   }
@@ -195,8 +218,9 @@ unsigned S2mmChannel::buffered_beats(std::uint64_t cycle) const {
 void S2mmChannel::drive_bus(std::uint64_t cycle) {
   if (bus_ == Bus::busy && cycle >= burst_end_) {
     Burst& burst = bursts_.front();
-    m_axi.write(burst.address, burst.data.data(), static_cast<unsigned>(burst.data.size()),
-                keyhole());
+    const auto bytes = static_cast<unsigned>(burst.data.size());
+    m_axi.transfer(tlm::TLM_WRITE_COMMAND, burst.address, burst.data.data(), bytes,
+                   keyhole() ? std::min(bytes, beat_bytes_) : bytes, nullptr);
     bus_ = Bus::answering;
   }
   if (bus_ == Bus::answering && m_axi.done()) end_burst(cycle);
@@ -211,7 +235,8 @@ void S2mmChannel::drive_bus(std::uint64_t cycle) {
 
 void S2mmChannel::start_burst(std::uint64_t cycle) {
   burst_start_ = std::max(cycle, m_axi.path().write_free);
-  burst_end_ = burst_start_ + (bursts_.front().beats + memory_words_ - 1) / memory_words_;
+  burst_end_ = burst_start_ +
+               (bursts_.front().beats * clocks_per_beat_ + beats_per_clock_ - 1) / beats_per_clock_;
   m_axi.path().write_free = burst_end_;
   bus_ = Bus::busy;
 }

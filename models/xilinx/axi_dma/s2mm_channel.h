@@ -15,9 +15,8 @@ namespace xilinx {
 /// TREADY is low without a transfer: data waits at the master, nothing is lost.
 class S2mmChannel : public DmaChannel {
  public:
-  /// `memory_words`: that a clock writes to memory.
   S2mmChannel(Core& core, vp::RegisterBank& bank, vp::Clocked& owner, std::uint32_t burst_beats,
-              std::uint32_t memory_words);
+              const DmaWidths& widths);
 
   MemoryPort m_axi;
   vp::AxiStreamSlave s_axis;
@@ -58,6 +57,8 @@ class S2mmChannel : public DmaChannel {
   void take_beats(std::uint64_t cycle);
   void take_from_source(std::uint64_t cycle);
   void take_beat(std::uint32_t data, std::uint8_t keep, bool last, std::uint64_t cycle);
+  void take_wide_beat(std::uint64_t cycle);
+  bool take_byte(unsigned char byte, std::uint64_t cycle);
   void take_words(const vp::BeatSource::Beats& beats, std::uint64_t cycle);
   void append(const std::uint32_t* words, std::uint32_t count);
   void end_beat(bool last, std::uint64_t cycle);
@@ -74,10 +75,10 @@ class S2mmChannel : public DmaChannel {
 
   const unsigned burst_size_;  ///< bytes
   const unsigned fifo_beats_;
-  const unsigned memory_words_;
-  std::uint64_t write_address_ = 0;  ///< of the burst being collected
-  std::uint32_t capacity_ = 0;       ///< LENGTH
-  std::uint32_t received_ = 0;       ///< bytes taken that LENGTH has room for
+  const unsigned beats_per_clock_, clocks_per_beat_;  ///< of the memory's side
+  std::uint64_t write_address_ = 0;                   ///< of the burst being collected
+  std::uint32_t capacity_ = 0;                        ///< LENGTH
+  std::uint32_t received_ = 0;                        ///< bytes taken that LENGTH has room for
   std::uint64_t ready_from_ = never;
   std::uint64_t take_from_ = 0;  ///< with a source: edge before which no beat has to be taken
   bool closed_ = true;           ///< no more beats belong to the last transfer

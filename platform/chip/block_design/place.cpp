@@ -92,6 +92,17 @@ Placed place_gpio(const Placement& at) {
   return placed;
 }
 
+constexpr std::uint32_t narrowest_engine = 4, bits_per_byte = 8;
+/// Beats that a width converter holds (assumed).
+constexpr std::uint32_t converter_depth = 8;
+
+xilinx::DmaWidths dma_widths(const Placement& at, const char* memory, const char* stream) {
+  const auto bytes = [&](const char* parameter) {
+    return static_cast<std::uint32_t>(at.number(parameter) / bits_per_byte);
+  };
+  return {bytes(memory), std::max(bytes(stream), narrowest_engine)};
+}
+
 xilinx::AxiDmaBuild dma_build(const Placement& at) {
   xilinx::AxiDmaBuild build;
   build.include_mm2s = at.flag("C_INCLUDE_MM2S");
@@ -102,20 +113,18 @@ xilinx::AxiDmaBuild dma_build(const Placement& at) {
   build.s2mm_dre = at.flag("C_INCLUDE_S2MM_DRE");
   build.burst_beats = static_cast<std::uint32_t>(
       at.number(build.include_mm2s ? "C_MM2S_BURST_SIZE" : "C_S2MM_BURST_SIZE"));
-  build.memory_words = at.number("C_M_AXI_S2MM_DATA_WIDTH") > 32 ? 2 : 1;
+  build.mm2s = dma_widths(at, "C_M_AXI_MM2S_DATA_WIDTH", "C_M_AXIS_MM2S_TDATA_WIDTH");
+  build.s2mm = dma_widths(at, "C_M_AXI_S2MM_DATA_WIDTH", "C_S_AXIS_S2MM_TDATA_WIDTH");
   return build;
 }
 
-constexpr std::uint32_t widest_stream_bytes = 4, bits_per_byte = 8;
-
-/// The engine's streams are 32 bits wide. Narrower ones end in a converter, which takes a clock
+/// The engine's streams have 32 bits or more. Narrower ones end in a converter, which takes a clock
 /// (assumed): the same bytes, counted as bytes.
 class NarrowStream : public sc_core::sc_module {
  public:
   NarrowStream(sc_core::sc_module_name name, vp::Clock& clock, std::uint32_t in_bytes,
                std::uint32_t out_bytes)
-      : sc_module(name),
-        buffer("buffer", clock, {in_bytes, out_bytes, 2 * widest_stream_bytes, 1}) {}
+      : sc_module(name), buffer("buffer", clock, {in_bytes, out_bytes, converter_depth, 1}) {}
   const char* kind() const override { return "NarrowStream"; }
 
   vp::AxiStream inside{"inside"};
@@ -129,9 +138,9 @@ void add_mm2s(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed
   std::function<void(vp::AxiStream&, vp::Clock&)> bind = [&dma](vp::AxiStream& link, vp::Clock&) {
     dma.mm2s().m_axis(link);
   };
-  if (bytes != widest_stream_bytes) {
+  if (bytes < narrowest_engine) {
     auto narrow = std::make_unique<NarrowStream>((at.part.name + "_mm2s_width").c_str(), clock,
-                                                 widest_stream_bytes, bytes);
+                                                 narrowest_engine, bytes);
     dma.mm2s().m_axis(narrow->inside);
     narrow->buffer.s_axis(narrow->inside);
     bind = [line = narrow.get()](vp::AxiStream& link, vp::Clock&) { line->buffer.m_axis(link); };
@@ -147,9 +156,9 @@ void add_s2mm(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed
   std::function<void(vp::AxiStream&, vp::Clock&)> bind = [&dma](vp::AxiStream& link, vp::Clock&) {
     dma.s2mm().s_axis(link);
   };
-  if (bytes != widest_stream_bytes) {
+  if (bytes < narrowest_engine) {
     auto narrow = std::make_unique<NarrowStream>((at.part.name + "_s2mm_width").c_str(), clock,
-                                                 bytes, widest_stream_bytes);
+                                                 bytes, narrowest_engine);
     narrow->buffer.m_axis(narrow->inside);
     dma.s2mm().s_axis(narrow->inside);
     bind = [line = narrow.get()](vp::AxiStream& link, vp::Clock&) { line->buffer.s_axis(link); };
@@ -224,7 +233,7 @@ Placed place_stream_buffer(const Placement& at, const std::string& ip) {
   if (ip == "axis_dwidth_converter") {
     build.in_bytes = bytes("S_TDATA_NUM_BYTES");
     build.out_bytes = bytes("M_TDATA_NUM_BYTES");
-    build.depth = 2 * widest_stream_bytes;
+    build.depth = converter_depth;
   } else {
     build.in_bytes = build.out_bytes = bytes("TDATA_NUM_BYTES");
     build.strobe = at.flag("HAS_TSTRB") ? build.in_bytes : 0;

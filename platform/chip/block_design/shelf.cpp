@@ -35,13 +35,13 @@ std::vector<ParameterRule> dma_parameters() {
           {"C_SG_INCLUDE_STSCNTRL_STRM", "0", {"0"}},
           {"C_SG_LENGTH_WIDTH", "14"},
           {"C_INCLUDE_MM2S", "1", {"0", "1"}},
-          {"C_M_AXI_MM2S_DATA_WIDTH", "32", {"32", "64", "128", "256", "512"}},
-          {"C_M_AXIS_MM2S_TDATA_WIDTH", "32", {"8", "16", "32"}},
+          {"C_M_AXI_MM2S_DATA_WIDTH", "32", {"32", "64", "128", "256", "512", "1024"}},
+          {"C_M_AXIS_MM2S_TDATA_WIDTH", "32", {"8", "16", "32", "64", "128", "256", "512", "1024"}},
           {"C_INCLUDE_MM2S_DRE", "0", {"0", "1"}},
           {"C_MM2S_BURST_SIZE", "16"},
           {"C_INCLUDE_S2MM", "1", {"0", "1"}},
-          {"C_M_AXI_S2MM_DATA_WIDTH", "32", {"32", "64", "128", "256", "512"}},
-          {"C_S_AXIS_S2MM_TDATA_WIDTH", "32", {"8", "16", "32"}},
+          {"C_M_AXI_S2MM_DATA_WIDTH", "32", {"32", "64", "128", "256", "512", "1024"}},
+          {"C_S_AXIS_S2MM_TDATA_WIDTH", "32", {"8", "16", "32", "64", "128", "256", "512", "1024"}},
           {"C_INCLUDE_S2MM_DRE", "0", {"0", "1"}},
           {"C_S2MM_BURST_SIZE", "16"}};
 }
@@ -253,8 +253,9 @@ std::vector<IpRule> rules() {
        "DDR (ACP without coherence, so warnings of caches are those of HP), FCLK 0 to 3, IRQ_F2P, "
        "EMIO GPIO; other pins drive 0"},
       {"axi_dma", Kind::model,
-       "AXI DMA, direct and scatter-gather (PG021); memory of 64 bits and more as one of 32, or 64 "
-       "for S2MM: the same words, longer on the bus",
+       "AXI DMA, direct and scatter-gather (PG021); a memory map wider than the stream reads as "
+       "one "
+       "of the stream's width: the same bytes, longer on the bus",
        dma_parameters()},
       {"axi_gpio", Kind::model, "AXI GPIO (PG144)", gpio_parameters()},
       {"axi_bram_ctrl",

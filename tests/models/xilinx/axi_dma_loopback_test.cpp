@@ -1,5 +1,6 @@
 // A DMA whose output stream is its input stream. It takes the same words on the same edges as two
 // cores in line: all registers of a core sample what stood before the edge, whatever drives them.
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cstring>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <vp/axi_stream.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
+#include <vp/error.h>
 #include <vp/router.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include "bus_master.h"
@@ -32,8 +34,9 @@ constexpr std::uint32_t destination = memory_size / 2;
 constexpr std::uint32_t sender_base = 0x40400000, receiver_base = 0x40410000;
 constexpr unsigned char untouched = 0xEE;
 
-xilinx::AxiDmaBuild build(bool mm2s, bool s2mm) {
+xilinx::AxiDmaBuild build(bool mm2s, bool s2mm, std::uint32_t beat_bytes) {
   xilinx::AxiDmaBuild build;
+  build.mm2s = build.s2mm = {beat_bytes, beat_bytes};
   build.include_mm2s = mm2s;
   build.include_s2mm = s2mm;
   return build;
@@ -49,6 +52,7 @@ struct How {
   bool batch = false;    ///< many edges in one activation
   bool watched = false;
   bool direct = true;  ///< the memory grants direct access
+  std::uint32_t beat_bytes = 4;
 };
 
 /// When the bits of one transfer showed, in clock edges after LENGTH of MM2S was written; 0: never.
@@ -68,10 +72,10 @@ std::ostream& operator<<(std::ostream& out, const Times& times) {
 
 struct Loop : kit::Simulation {
   explicit Loop(How how = {})
-      : sender("sender", clock, build(true, how.one_core)),
-        second(how.one_core
-                   ? nullptr
-                   : std::make_unique<xilinx::AxiDma>("receiver", clock, build(false, true))),
+      : sender("sender", clock, build(true, how.one_core, how.beat_bytes)),
+        second(how.one_core ? nullptr
+                            : std::make_unique<xilinx::AxiDma>("receiver", clock,
+                                                               build(false, true, how.beat_bytes))),
         receiver(how.one_core ? sender : *second),
         s2mm_base(how.one_core ? sender_base : receiver_base) {
     software.socket.bind(axi.socket);
@@ -228,6 +232,43 @@ BOOST_AUTO_TEST_CASE(one_core_keeps_the_times_of_two) {
     BOOST_TEST(copies(how, lengths()) == two, boost::test_tools::per_element());
     how.watched = true;
     BOOST_TEST(copies(how, lengths()) == two, boost::test_tools::per_element());
+  }
+}
+
+// The port of the PS takes a beat of more than 8 bytes for several clocks, on either side.
+BOOST_AUTO_TEST_CASE(wide_streams_at_exact_times) {
+  for (const std::uint32_t width : {8, 16, 64, 128}) {
+    How how;
+    how.beat_bytes = width;
+    const std::uint32_t clocks = std::max(width / 8, 1u), burst = std::min(32 * width, 4096u);
+    const std::vector<std::uint32_t> lengths{1, width - 1, width, width + 1, 3 * width + 5, burst};
+    const std::vector<Times> times = copies(how, lengths);
+    BOOST_TEST_REQUIRE(times.size() == lengths.size(), "MM2S never completes");
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      const std::uint64_t beats = (lengths[i] + width - 1) / width;
+      const std::uint64_t last = first_beat + beats * clocks - 1;
+      Times expected;
+      expected.sent = last + completion;
+      expected.received = last + write_latency + beats * clocks + response;
+      expected.sent_interrupt = expected.sent + 1;
+      expected.received_interrupt = expected.received + 1;
+      BOOST_TEST(times[i] == expected, width << " bytes wide, " << lengths[i] << " bytes");
+    }
+    const std::vector<std::uint32_t> longer{burst + 1, 10'000, (1u << 14) - 1};
+    const std::vector<Times> one = copies(how, longer);
+    how.one_core = false;
+    how.watched = true;
+    BOOST_TEST(copies(how, longer) == one, boost::test_tools::per_element());
+  }
+}
+
+BOOST_FIXTURE_TEST_CASE(widths_that_no_core_has, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  for (const xilinx::DmaWidths widths : {xilinx::DmaWidths{8, 12}, {4, 8}, {256, 128}, {4, 2}}) {
+    xilinx::AxiDmaBuild build;
+    build.s2mm = widths;
+    BOOST_CHECK_THROW(xilinx::AxiDma("dma", clock, build), vp::InputError);
   }
 }
 

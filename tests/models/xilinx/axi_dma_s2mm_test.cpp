@@ -98,7 +98,7 @@ BOOST_FIXTURE_TEST_CASE(two_bursts_at_exact_times, S2mmBench) {
 
 AxiDmaBuild wide_memory() {
   AxiDmaBuild build;
-  build.memory_words = 2;
+  build.s2mm.memory_bytes = 8;
   return build;
 }
 

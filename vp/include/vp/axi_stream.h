@@ -97,10 +97,16 @@ class AxiStream : public sc_core::sc_module {
 
   /// Further wires: there once both ends are bound.
   struct Part {
-    explicit Part(const StreamPart& of, std::uint32_t initial)
-        : part(of), wire(of.name().c_str(), of.bits, initial) {}
+    Part(const StreamPart& of, std::uint32_t initial, Clocked& master, Clocked& slave)
+        : part(of),
+          wire(of.name().c_str(), of.bits, initial),
+          read_by_slave(of.name().c_str(), &slave) {
+      wire.set_writer(master);
+      read_by_slave(wire);
+    }
     StreamPart part;
     Signal<std::uint32_t> wire;
+    In<std::uint32_t> read_by_slave;  ///< so that the scheduler knows who samples it
   };
   std::deque<Part>& parts() { return parts_; }
   /// Of a beat, once both ends are bound.
@@ -291,6 +297,8 @@ class AxiStreamSlave {
   Out<bool> tready;
 
  private:
+  friend class AxiStream;
+
   void count_stall(bool valid);
 
   Clocked& owner_;

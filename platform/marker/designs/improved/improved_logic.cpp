@@ -14,7 +14,7 @@ namespace {
 xilinx::AxiDmaBuild packet_writer(std::uint32_t bytes, std::uint32_t burst_words,
                                   std::uint32_t words_per_clock = 1) {
   xilinx::AxiDmaBuild build;
-  build.memory_words = words_per_clock;
+  build.s2mm.memory_bytes = words_per_clock * xilinx::word_bytes;
   build.include_mm2s = false;
   build.burst_beats = burst_words;
   build.length_width = marker_logic::bits_for(bytes + 1, 14);

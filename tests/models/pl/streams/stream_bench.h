@@ -61,7 +61,7 @@ class ArmedDma {
  private:
   static xilinx::AxiDmaBuild build(std::uint32_t memory_words) {
     xilinx::AxiDmaBuild build;
-    build.memory_words = memory_words;
+    build.s2mm.memory_bytes = memory_words * xilinx::word_bytes;
     build.include_mm2s = false;
     build.burst_beats = 16;
     return build;
