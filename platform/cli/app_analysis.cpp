@@ -391,6 +391,13 @@ void add_trace_command(CLI::App& app, TraceCommandOptions& target) {
       ->type_name("FILE")
       ->required();
 
+  CLI::App* saif = add(*trace, target, "saif",
+                       "write how often each bit turns, for Vivado's read_saif and others");
+  add_file(*saif, target);
+  saif->add_option("OUTPUT", target.other, "a .saif")->type_name("FILE")->required();
+  add_window(*saif, target);
+  add_filter(*saif, target);
+
   CLI::App* plot = add(*trace, target, "plot",
                        "draw signals as SVG or timing diagram; a page to look around in");
   add_file(*plot, target);

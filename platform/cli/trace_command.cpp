@@ -224,15 +224,27 @@ int diff(const TraceCommandOptions& options, std::ostream& out, std::ostream& er
   return run_failed;
 }
 
-int cut(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
-  TraceFile file = opened(options);
+trace::CutOptions part(const TraceCommandOptions& options) {
   trace::CutOptions asked;
   const TimeWindow times = window(options);
   asked.from_ps = times.from_ps;
   asked.to_ps = times.to_ps;
   asked.filter = vp::TraceFilter(options.filter);
-  trace::cut(file, options.other, asked);
+  return asked;
+}
+
+int cut(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
+  trace::cut(file, options.other, part(options));
   out << "wrote " << options.other << "\n";
+  warn_of(file, err);
+  return done;
+}
+
+int saif(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
+  TraceFile file = opened(options);
+  const std::uint64_t bits = trace::write_saif(file, options.other, part(options));
+  out << "wrote " << options.other << ": " << bits << (bits == 1 ? " bit" : " bits") << "\n";
   warn_of(file, err);
   return done;
 }
@@ -334,6 +346,7 @@ int answer(const TraceCommandOptions& options, std::ostream& out, std::ostream& 
   if (options.command == "check") return check_trace(options, out, err);
   if (options.command == "diff") return diff(options, out, err);
   if (options.command == "plot") return plot(options, out, err);
+  if (options.command == "saif") return saif(options, out, err);
   if (options.command == "view") return view(options, out, err);
   if (options.command == "gtkw") return gtkw(options, out, err);
   return cut(options, out, err);  // and convert, which takes no part

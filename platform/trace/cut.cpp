@@ -6,7 +6,6 @@
 #include <vp/wave_writer.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -26,10 +25,7 @@ class Cutter final : private WindowReader {
       : WindowReader(file, options), nets_(file.reader().nets()) {
     options.filter.check(file.paths(), {});
     writer_ = vp::open_wave_writer(to);
-    if (file.reader().timescale_fs() % fs_per_ps != 0) {
-      per_ps_ = fs_per_ps;
-      writer_->count_femtoseconds();
-    }
+    if (counts_femtoseconds()) writer_->count_femtoseconds();
     for (std::uint32_t i = 0; i < file.paths().size(); ++i) {
       if (options.filter.selects(file.paths()[i])) add(i);
     }
@@ -43,7 +39,6 @@ class Cutter final : private WindowReader {
   }
 
  private:
-  static constexpr std::uint64_t fs_per_ps = 1000;
   struct Net {
     std::vector<Writer::Id> ids;  ///< it may have several names
     Kind kind = Kind::bits;
@@ -70,13 +65,6 @@ class Cutter final : private WindowReader {
     net_of_id_.push_back(variable.net);
   }
 
-  /// A time as the writer counts it: ps, or fs.
-  std::uint64_t steps(Moment moment) const {
-    const auto wide =
-        static_cast<unsigned __int128>(moment.first) * per_ps_ + (per_ps_ == 1 ? 0 : moment.second);
-    constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-    return wide > most ? most : static_cast<std::uint64_t>(wide);
-  }
   void begin(Moment start) override {
     Writer::WrittenValues values;
     for (const std::uint32_t net : net_of_id_) values.push_back(nets_[net].last);
@@ -106,7 +94,6 @@ class Cutter final : private WindowReader {
   }
 
   std::unique_ptr<Writer> writer_;
-  std::uint64_t per_ps_ = 1;  ///< steps of the writer's time
   std::vector<Net> nets_;
   std::vector<std::uint32_t> net_of_id_;
 };

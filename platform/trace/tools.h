@@ -54,6 +54,13 @@ struct CutOptions : Window {
 /// vp::InputError; also if the window lies behind the trace or the filter selects nothing.
 void cut(TraceFile& file, const std::string& to, const CutOptions& options = {});
 
+/// Writes how long each bit of the selected signals has which value, and how often it turns, as
+/// backward SAIF 2.0 (IEEE 1801), which Vivado's read_saif takes. Vectors count down
+/// to bit 0: a trace's own indices are not known. Texts, reals and events are left out. Returns how
+/// many bits there are. Throws vp::InputError as cut() does, for a window of one instant, and for
+/// selected signals that are in no scope.
+std::uint64_t write_saif(TraceFile& file, const std::string& to, const CutOptions& options = {});
+
 struct PlotOptions {
   std::vector<std::string> signals;  ///< as users write them, in this order
   std::uint64_t from_ps = 0;

@@ -4,6 +4,7 @@
 #include <vp/unit.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 namespace platform::trace {
@@ -25,6 +26,13 @@ void WindowReader::read() {
     fail("has nothing before " + vp::format_time(window_.to_ps) + ", the end of the window");
   }
   begin_once();
+}
+
+std::uint64_t WindowReader::steps(Moment moment) const {
+  if (!counts_femtoseconds()) return moment.first;
+  const auto wide = static_cast<unsigned __int128>(moment.first) * fs_per_ps + moment.second;
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  return wide > most ? most : static_cast<std::uint64_t>(wide);
 }
 
 bool WindowReader::at(std::uint64_t ps) {

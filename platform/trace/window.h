@@ -40,9 +40,14 @@ class WindowReader : public vp::WaveHandler {
   /// A trace has nothing before its first instant.
   Moment start() const { return std::max(Moment(window_.from_ps, 0), first_.value_or(Moment())); }
 
+  /// Moments are counted in ps, or in fs if the file's own steps are none of those.
+  bool counts_femtoseconds() const { return file_.reader().timescale_fs() % fs_per_ps != 0; }
+  std::uint64_t steps(Moment moment) const;
+
   TraceFile& file_;
 
  private:
+  static constexpr std::uint64_t fs_per_ps = 1000;
   bool at(std::uint64_t ps) final;
   void begin_once();
 

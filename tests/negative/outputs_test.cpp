@@ -190,6 +190,7 @@ BOOST_AUTO_TEST_CASE(a_full_standard_output) {
                               "trace stats a.vcd",
                               "trace diff a.vcd a.vcd",
                               "trace cut a.vcd b.vcd",
+                              "trace saif a.vcd a.saif",
                               "trace plot a.vcd pl.control_block.ena",
                               "trace gtkw a.vcd",
                               "sweep --list",

@@ -631,6 +631,30 @@ for (const name of ["run", "comparison"]) {
   }, { viewport: { width: 400, height: 900 } }));
 }
 
+test("the trade-off is coloured by any figure, and shows what is around the front", () => open("fastSweep", async (page) => {
+  const chart = page.locator("#trade-off figure").first();
+  const choice = (label) => page.locator("#trade-off label", { hasText: new RegExp(`^${label}`) }).locator("select");
+  await page.locator("#trade-off").scrollIntoViewIfNeeded();
+  const range = async () => { const grip = page.getByRole("slider", { name: "Frame rate, at least" }); return Number(await grip.getAttribute("aria-valuemax")) - Number(await grip.getAttribute("aria-valuemin")); };
+  await eventually(async () => assert.ok(await range() > 0));
+  const all = await range();
+  const said = await chart.textContent();
+  await choice("Show").selectOption("front");
+  await eventually(async () => assert.ok(await range() < all, "the axis shows less"));
+  assert.equal(await chart.textContent(), said, "and nothing else changes");
+  await choice("Show").selectOption("");
+  await eventually(async () => assert.equal(await range(), all));
+  const picture = async () => chart.locator("canvas").first().evaluate((canvas) => canvas.toDataURL());
+  const plain = await picture();
+  for (const option of await choice("Colour by").locator("option").all()) {
+    if (await option.getAttribute("value") === "") continue;
+    await choice("Colour by").selectOption(await option.getAttribute("value"));
+    await eventually(async () => assert.notEqual(await picture(), plain, await option.textContent()));
+  }
+  await choice("Colour by").selectOption("");
+  await eventually(async () => assert.equal(await picture(), plain));
+}));
+
 test("a click on a point of the trade-off opens it", () => open("sweep", async (page) => {
   const area = page.locator('.chart-area[aria-label^="Frame rate and power"]');
   await area.scrollIntoViewIfNeeded();

@@ -10,7 +10,7 @@ namespace platform::power {
 
 /// Where to count.
 struct ToggleSource {
-  std::string trace;     ///< VCD or FST of any simulator, by content
+  std::string trace;     ///< VCD or FST of any simulator, or what one counted: NAME.saif
   std::string below;     ///< scope, whose signals and inner scopes count: "top.cipher"
   std::string clock;     ///< signal by whose rising edges toggles are divided: "top.clk"
   double clock_mhz = 0;  ///< instead, where the trace has none: its time is counted in such clocks
@@ -33,7 +33,8 @@ struct ToggleCount {
 };
 
 /// Counts changes from 0 to 1 and from 1 to 0. Each net counts once, however many names show it,
-/// and the clock itself does not. Real numbers, texts and events are no nets. Throws vp::InputError
+/// and the clock itself does not; a SAIF does not say which names are of one net, and counts each.
+/// Real numbers, texts and events are no nets. Throws vp::InputError
 /// for a trace that cannot be read, a scope or clock that is not in it, a clock that is a vector or
 /// does not rise.
 ToggleCount count_toggles(const ToggleSource& source);

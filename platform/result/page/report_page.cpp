@@ -105,20 +105,27 @@ std::size_t piece_size(std::string_view json) {
   return std::min(size, json.size());
 }
 
+/// White space between values, too. What follows the first byte of a character goes with that.
+bool is_shown_as_it_is(char c) {
+  constexpr unsigned char del = 0x7f, first_of_several = 0xc0;
+  const auto byte = static_cast<unsigned char>(c);
+  return c != '\\' && byte != del && byte < first_of_several;
+}
+
 }  // namespace
 
 std::string shown_json(std::string_view json, bool has_lines) {
-  constexpr char del = 0x7f;
   std::string shown;
   shown.reserve(json.size());
   while (!json.empty()) {
+    const auto* const odd = std::find_if_not(json.begin(), json.end(), is_shown_as_it_is);
+    const auto plain = static_cast<std::size_t>(odd - json.begin());
+    shown += json.substr(0, plain);
+    json.remove_prefix(plain);
+    if (json.empty()) break;
     const std::string_view piece = json.substr(0, piece_size(json));
     json.remove_prefix(piece.size());
     const bool escaped = piece[0] == '\\';
-    if (!escaped && piece.size() == 1 && piece[0] != del) {  // white space between values, too
-      shown += piece;
-      continue;
-    }
     const std::string character = escaped ? escaped_character(piece) : std::string(piece);
     const std::string seen = has_lines ? vp::visible_lines(character) : vp::visible(character);
     shown += seen == character ? std::string(piece) : with_double_backslashes(seen);
@@ -128,7 +135,11 @@ std::string shown_json(std::string_view json, bool has_lines) {
 
 std::string page_with(std::string_view page, const std::vector<Block>& blocks) {
   const std::size_t at = page.find(placeholder);
-  std::string text(page.substr(0, at));
+  std::string text;
+  std::size_t size = page.size();
+  for (const Block& block : blocks) size += block.json.size() + block.json.size() / 64;
+  text.reserve(size);  // a page has megabytes: growing would copy them several times
+  text += page.substr(0, at);
   for (const Block& block : blocks) {
     text += block_start(block.id);
     text += script_safe(shown_json(block.json, block.has_lines));

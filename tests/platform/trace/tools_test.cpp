@@ -1,4 +1,4 @@
-// diff, cut, plot, names and save files.
+// diff, cut, SAIF, plot, names and save files.
 #include <boost/test/unit_test.hpp>
 
 #include <marker/designs/marker/marker_design.h>
@@ -154,6 +154,60 @@ BOOST_AUTO_TEST_CASE(a_part_of_a_window_begins_where_the_window_began) {
   BOOST_TEST(complaint([&] {
                cut(early, waves / "none.vcd", options);
              }).find("has nothing before 60 ns") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(saif_tells_how_long_each_bit_has_which_value_and_how_often_it_turns) {
+  const Waves waves("top.clk 1, top.core.word 2, top.core.note string, top.gen[0].q 1",
+                    "#0 0! b0x \" z$\n#10 1! b01 \"\n#20 0! b10 \" 1$\n#25 b0 \"\n#30\n");
+  TraceFile file(waves.file);
+  BOOST_TEST(write_saif(file, waves / "all.saif") == 4u);
+  const std::string head =
+      "(SAIFILE\n(SAIFVERSION \"2.0\")\n(DIRECTION \"backward\")\n(DESIGN )\n"
+      "(PROGRAM_NAME \"markervp\")\n(DIVIDER / )\n(TIMESCALE 1 ps)\n";
+  BOOST_TEST(kit::read_file(waves / "all.saif") ==
+             head +
+                 "(DURATION 30000)\n(INSTANCE top\n(NET\n"
+                 "(clk (T0 20000) (T1 10000) (TX 0) (TZ 0) (TC 2) (IG 0))\n)\n"
+                 "(INSTANCE core\n(NET\n"
+                 "(word\\[1\\] (T0 25000) (T1 5000) (TX 0) (TZ 0) (TC 2) (IG 0))\n"
+                 "(word\\[0\\] (T0 10000) (T1 10000) (TX 10000) (TZ 0) (TC 1) (IG 0))\n)\n)\n"
+                 "(INSTANCE gen\\[0\\]\n(NET\n"
+                 "(q (T0 0) (T1 10000) (TX 0) (TZ 20000) (TC 0) (IG 0))\n)\n)\n)\n)\n");
+
+  TraceFile again(waves.file);
+  CutOptions part;
+  part.from_ps = 15'000;  // the bit was 1 for 5 ns then, and turns at 20 ns
+  part.to_ps = 25'000;    // what happens in that instant is not in the window
+  part.filter = vp::TraceFilter({"**.word"});
+  BOOST_TEST(write_saif(again, waves / "part.saif", part) == 2u);
+  BOOST_TEST(kit::read_file(waves / "part.saif") ==
+             head +
+                 "(DURATION 10000)\n(INSTANCE top\n(INSTANCE core\n(NET\n"
+                 "(word\\[1\\] (T0 5000) (T1 5000) (TX 0) (TZ 0) (TC 1) (IG 0))\n"
+                 "(word\\[0\\] (T0 5000) (T1 5000) (TX 0) (TZ 0) (TC 1) (IG 0))\n"
+                 ")\n)\n)\n)\n");
+}
+
+BOOST_AUTO_TEST_CASE(saif_of_femtoseconds_counts_them_and_what_has_no_scope_is_refused) {
+  const Waves waves("top.q 1, lone 1", "#0 0! 0\"\n#500 1!\n#1500\n", "1fs");
+  const auto problem = [&](const CutOptions& options) {
+    TraceFile file(waves.file);
+    return complaint([&] { write_saif(file, waves / "t.saif", options); });
+  };
+  CutOptions options;
+  BOOST_TEST(problem(options).find("'lone' is in no scope") != std::string::npos);
+  options.filter = vp::TraceFilter({"top.**"});
+  BOOST_TEST(problem(options) == "");
+  const std::string text = kit::read_file(waves / "t.saif");
+  BOOST_TEST(text.find("(TIMESCALE 1 fs)\n(DURATION 1500)") != std::string::npos, text);
+  BOOST_TEST(text.find("(q (T0 500) (T1 1000) (TX 0) (TZ 0) (TC 1)") != std::string::npos, text);
+  options.from_ps = 1;
+  options.to_ps = 1;
+  BOOST_TEST(problem(options) != "");
+  const Waves still("top.q 1", "#0 0!\n");
+  TraceFile file(still.file);
+  BOOST_TEST(complaint([&] { write_saif(file, still / "t.saif"); }).find("no duration") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(names_of_others_become_ours) {

@@ -4,6 +4,7 @@ import { h } from "../kit/dom.js";
 import { counted, fixed, significant, tidy } from "../kit/format.js";
 import { palette } from "../kit/theme.js";
 import { columnsOf, describe, opener, value } from "./charts.js";
+import { groupsOf } from "./colouring.js";
 import { frontOf } from "./selection.js";
 
 /** Above so many points they are drawn at once, as small squares. */
@@ -141,23 +142,27 @@ function handles(selection, shown) {
   return { layer, ready };
 }
 
-function figureOf(sweep, selection, shown, frontIn, open) {
+/** `view`: {near: only the surroundings of the front, colour: an axis or null}. */
+function figureOf(sweep, selection, shown, view, frontIn, open) {
   const { x, y } = shown;
   const known = sweep.whole.filter((p) => Number.isFinite(x.axis.of(p)) && Number.isFinite(y.axis.of(p)));
   if (known.length === 0) return h("p", { class: "note" }, "No point has both.");
-  const scales = { x: scaleOf(known.map(x.axis.of)), y: scaleOf(known.map(y.axis.of)) };
-  const lines = isoLines(shown, known, scales);
   const faulty = known.some((p) => p.faults.length > 0);
   const reasons = [...new Set(known.flatMap((p) => p.faults))].sort((a, b) => a.length - b.length);
   const failed = sweep.points.length - sweep.whole.length;
   const large = known.length > many;
-  let parts = null;
+  const groups = view.colour ? groupsOf(view.colour, known.filter((p) => p.faults.length === 0)) : [];
+  let parts = null, scales = null, lines = [];
   const sort = () => {
     const good = [], outside = [], bad = [];
     for (const p of known) (p.faults.length > 0 ? bad : selection.keeps(p) ? good : outside).push(p);
     const front = frontOf(good.filter((p) => !p.same_as), frontIn()).sort((a, b) => x.axis.of(a) - x.axis.of(b) || y.axis.of(a) - y.axis.of(b));
     const onFront = new Set(front);
-    parts = { outside, bad, good: good.filter((p) => !onFront.has(p)), front };
+    const behind = good.filter((p) => !onFront.has(p));
+    parts = { outside, bad, good: behind, front, groups: groups.map((g) => behind.filter(g.has)) };
+    const seen = view.near && front.length > 0 ? front : known;
+    scales = { x: scaleOf(seen.map(x.axis.of)), y: scaleOf(seen.map(y.axis.of)) };
+    lines = isoLines(shown, seen, scales);
     return parts;
   };
   sort();
@@ -165,9 +170,11 @@ function figureOf(sweep, selection, shown, frontIn, open) {
     const c = palette();
     return [
       { name: "Outside the limits", points: parts.outside, symbol: "circle", size: 5, style: { color: c.grey, opacity: 0.25 } },
-      { name: "Feasible", points: parts.good, symbol: "circle", size: 6, style: { color: c.blue, opacity: 0.55 } },
+      ...(groups.length === 0 ? [{ name: "Feasible", points: parts.good, symbol: "circle", size: 6, style: { color: c.blue, opacity: 0.55 } }]
+        : groups.map((g, i) => ({ name: g.name, points: parts.groups[i], symbol: "circle", size: 6, style: { color: g.colour(), opacity: 0.75 } }))),
       faulty && { name: "Not feasible or not proven", points: parts.bad, symbol: "triangle", size: 7, style: { color: c.vermilion, opacity: 0.6 } },
-      { name: "Pareto front", points: parts.front, symbol: "diamond", size: 10, style: { color: c.green } },
+      { name: "Pareto front", points: parts.front, symbol: "diamond", size: 10, style: groups.length === 0 ? { color: c.green }
+        : { color: ({ dataIndex }) => groups.find((g) => g.has(parts.front[dataIndex]))?.colour() ?? c.green, borderColor: c.green, borderWidth: 2 } },
     ].filter(Boolean);
   };
   // A list of lists takes ECharts three times as long.
@@ -225,11 +232,12 @@ export function tradeOff(sweep, selection, open) {
   if (!shown.x || !shown.y) return null;
   let whole = sweep.objectives.length > 2;
   const frontIn = () => (whole ? sweep.objectives : [shown.x.axis, shown.y.axis]);
+  const view = { near: false, colour: null };
   let figure = null;
   const holder = h("div");
   const build = () => {
     figure?.leave?.();
-    figure = figureOf(sweep, selection, { ...shown }, frontIn, open);
+    figure = figureOf(sweep, selection, { ...shown }, { ...view }, frontIn, open);
     holder.replaceChildren(figure);
   };
   const name = ({ axis: each, of }) => `${each.name} (${each.better > 0 ? "most" : "least"})${of.parameter ? ", parameter" : ""}`;
@@ -240,7 +248,13 @@ export function tradeOff(sweep, selection, open) {
   };
   const study = whole && h("select", { onchange: () => { whole = study.value === "all"; build(); } },
     h("option", { value: "all" }, `all ${sweep.objectives.length} objectives`), h("option", { value: "shown" }, "the two shown"));
-  const controls = h("div", { class: "controls" }, select("Across", "x"), select("Up", "y"), study && h("label", {}, "Front in", study));
+  const colours = [...new Set([...sweep.parameters, ...sweep.objectives, ...sweep.metrics])];
+  const colour = h("select", { onchange: () => { view.colour = colours[colour.value] ?? null; build(); } },
+    h("option", { value: "" }, "what they are"), colours.map((each, i) => h("option", { value: String(i) }, each.name + (each.parameter ? ", parameter" : ""))));
+  const range = h("select", { onchange: () => { view.near = range.value === "front"; build(); } },
+    h("option", { value: "" }, "all points"), h("option", { value: "front" }, "around the front"));
+  const controls = h("div", { class: "controls" }, select("Across", "x"), select("Up", "y"), study && h("label", {}, "Front in", study),
+    h("label", {}, "Colour by", colour), h("label", {}, "Show", range));
   build();
   selection.onChange(() => figure.update?.());
   return h("div", {}, controls, limitsBar(sweep, selection), holder);

@@ -31,6 +31,19 @@ std::string trace() {
   return text;
 }
 
+/// The same as what a simulator counted, with a clock that has two names.
+std::string saif(const std::string& change = "", const std::string& to = "") {
+  std::string text =
+      "(SAIFILE\n(SAIFVERSION \"2.0\") // of 8 clocks\n(DIRECTION \"backward\")\n(DESIGN )\n"
+      "(DIVIDER / )\n(TIMESCALE 10 ps)\n(DURATION 8000)\n(INSTANCE top\n(NET\n"
+      "(clk (T0 4000) (T1 4000) (TX 0) (TC 16) (IG 0))\n)\n"
+      "(INSTANCE \"kind\" busy (PORT\n(c (T0 4000) (T1 4000) (TX 0) (TC 16)))\n(NET\n"
+      "(word\\[1\\] (T0 4500) (T1 3500) (TC 7))\n(word\\[0\\] (T0 3500) (T1 4500) (TC 5))))\n"
+      "/* nothing\nhappens here */\n(INSTANCE idle (NET (word\\[0\\] (T0 8000) (TC 0))))))\n";
+  if (!change.empty()) text.replace(text.find(change), change.size(), to);
+  return text;
+}
+
 struct Fixture {
   const kit::TemporaryFolder folder;
   Fixture() { kit::write_file(folder / "run.vcd", trace()); }
@@ -88,6 +101,50 @@ BOOST_AUTO_TEST_CASE(a_trace_without_a_clock_is_counted_by_its_time) {
   BOOST_TEST(
       estimate("trace: {file: run.vcd, below: top.idle, clock: 50 MHz}").ledger.total().nominal >
       0);
+}
+
+BOOST_AUTO_TEST_CASE(a_simulators_own_count_is_taken_bits_as_vectors_and_without_the_clocks_names) {
+  kit::write_file(folder / "run.saif", saif());
+  const ToggleCount busy = count_toggles({folder / "run.saif", "top.busy", "top.clk", 0});
+  BOOST_TEST(busy.clocks == 8u);
+  BOOST_TEST(busy.bits == 2u);
+  BOOST_TEST(busy.toggles == 12u);
+  BOOST_TEST(busy.nets.size() == 1u);
+  BOOST_TEST(busy.nets.at(0).path == "top.busy.word");
+  BOOST_TEST(busy.nets.at(0).width == 2u);
+  BOOST_TEST(count_toggles({folder / "run.saif", "top.idle", "top.clk", 0}).toggles == 0u);
+  const ToggleCount by_time = count_toggles({folder / "run.saif", "top.busy", "", 50});
+  BOOST_TEST(by_time.clocks == 4u);  // in 80 ns
+  BOOST_TEST(by_time.bits == 3u);
+}
+
+BOOST_AUTO_TEST_CASE(a_count_that_is_odd_is_refused_with_its_line) {
+  const auto told = [&](const std::string& text, const std::string& part,
+                        const std::string& below = "top.busy",
+                        const std::string& clock = "top.clk") {
+    kit::write_file(folder / "run.saif", text);
+    try {
+      count_toggles({folder / "run.saif", below, clock, 0});
+      BOOST_ERROR("accepted: " << text);
+    } catch (const vp::InputError& error) {
+      const std::string message = error.what();
+      BOOST_TEST(message.find(part) != std::string::npos, message);
+    }
+  };
+  told(saif("(TC 7)", "(TC 7.5)"), "line 15: TC takes a whole number");
+  told(saif("(TC 7)", "(TC 99999999999999999999)"), "TC takes a whole number");
+  told(saif("(TC 7)"), "line 15: 'word[1]' has no TC");
+  told(saif("10 ps", "ten ps"), "'tenps' is no TIMESCALE");
+  told(saif("(DURATION 8000)"), "has no DURATION");
+  told(saif().substr(0, 300), "it is cut off");
+  told(saif() + ")", "closes nothing");
+  told(saif("*/"), "a comment does not end");
+  told("(NETLIST)", "is no SAIF");
+  told("", "is no SAIF");
+  told("SAIF", "is no SAIF");
+  told(saif("(TC 16)", "(TC 0)"), "never rises");
+  told(saif(), "did you mean 'top.busy'", "top.bsy");
+  told(saif(), "did you mean 'top.clk'", "top.busy", "top.clck");
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_counted_is_refused) {
