@@ -161,6 +161,21 @@ BOOST_FIXTURE_TEST_CASE(a_sweep_finds_the_knee_of_a_clock, Imported) {
       has(markervp({"sweep", "wrong.yaml"}).err, "did you mean 'pl.axi_dma_0.length_width'"));
 }
 
+BOOST_FIXTURE_TEST_CASE(a_program_is_files_or_the_folder_of_an_application, Imported) {
+  const auto with = [&](const std::string& program) {
+    return markervp({"import", "small.hwh", "-o", "mine", "--program", program});
+  };
+  std::filesystem::create_directories(*this / "src/lib");
+  BOOST_TEST(has(with("src").err, "no source in C or C++ in 'src'"));
+  BOOST_TEST(has(with("main.c").err, "no program source 'main.c'"));
+  BOOST_TEST(!std::filesystem::exists(*this / "mine"), "nothing is begun");
+  for (const char* name : {"src/main.c", "src/main.h", "src/lscript.ld", "src/lib/more.cpp"})
+    kit::write_file(*this / name, "\n");
+  BOOST_TEST(with("src").exit_code == 0);
+  BOOST_TEST(has(file("CMakeLists.txt"), "  \"../src/lib/more.cpp\"\n  \"../src/main.c\")\n"),
+             file("CMakeLists.txt"));
+}
+
 BOOST_FIXTURE_TEST_CASE(a_folder_of_the_users_is_left_alone, Imported) {
   import();
   std::filesystem::remove_all(*this / "mine/.import");
