@@ -130,6 +130,26 @@ BOOST_FIXTURE_TEST_CASE(other_commands_take_the_design, Imported) {
   BOOST_TEST(has(none.err, "design 'small' lacks its PS program 'build/small': build"), none.err);
 }
 
+// Without Graphviz the page says so.
+BOOST_FIXTURE_TEST_CASE(the_page_of_a_run_has_the_block_design, Imported) {
+  import();
+  run({"--design", "mine/design.yaml", "--program", MARKERVP_IMPORTED});
+  const std::string page = kit::read_file(*this / "out/report.html");
+  if (kit::run_process("/bin/sh", {"-c", "command -v dot"}, path()).exit_code != 0) {
+    BOOST_TEST(has(page, "--diagram needs Graphviz"));
+    return;
+  }
+  const std::size_t at = page.find(R"("diagram":{"svg":"\u003csvg )");
+  BOOST_TEST_REQUIRE(at != std::string::npos);
+  const std::string diagram = page.substr(at, page.find("\u003c/script", at) - at);
+  for (const char* what :
+       {R"(>axi_gpio_0\u003c/title)", R"("name":"axi_gpio_0","ip":"xilinx.com:ip:axi_gpio:2.0")",
+        R"(["0x41200000","GPIO_DATA","rw",)", R"(["pl.axi_dma_0.m_axi_mm2s.link.bytes_read",101,)",
+        R"(["pl.axi_dma_0_M_AXIS_MM2S.beats",26,)"})
+    BOOST_TEST(has(diagram, what), what);
+  BOOST_TEST(!std::filesystem::exists(*this / "out/diagram.svg"), "it is in the page");
+}
+
 BOOST_FIXTURE_TEST_CASE(a_sweep_finds_the_knee_of_a_clock, Imported) {
   import();
   // A stub would leave every verdict open: a GPIO is in the place of own_0.
