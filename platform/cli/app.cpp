@@ -291,7 +291,9 @@ void add_import(CLI::App& app, ImportOptions& target) {
   command->add_option("-o,--output", target.output, "folder (default: the design's name)")
       ->type_name("DIR");
   command->add_option("--rtl", target.rtl, "folders with RTL of its IP")->type_name("DIR");
-  command->add_option("--program", target.programs, "sources of its PS program: main.c …")
+  command
+      ->add_option("--program", target.programs,
+                   "sources of its PS program: main.c …, or a folder with them")
       ->type_name("FILE");
   command
       ->add_option("--block-design", target.block_design, "which one, of an archive with several")

@@ -108,13 +108,39 @@ std::string xparameters_of(const fs::path& folder, std::string& problem) {
   }
 }
 
+/// The sources in a folder and below, as Vitis compiles those of an application.
+std::vector<std::string> sources_in(const fs::path& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string kind = entry->path().extension().string();
+    if (kind == ".c" || kind == ".cc" || kind == ".cpp") files.push_back(entry->path().string());
+  }
+  if (error) throw vp::InputError("cannot read '" + folder.string() + "': " + error.message());
+  if (files.empty()) throw vp::InputError("no source in C or C++ in '" + folder.string() + "'");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The sources of the program that the user named, as files or as folders.
+std::vector<std::string> program_sources(const std::vector<std::string>& named) {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  for (const std::string& name : named) {
+    if (!fs::exists(name, ignored)) throw vp::InputError("no program source '" + name + "'");
+    const auto more = fs::is_directory(name, ignored) ? sources_in(name) : std::vector{name};
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  return files;
+}
+
 /// Sources as CMake finds them from the folder.
 std::vector<std::string> from_folder(const std::vector<std::string>& files,
                                      const fs::path& folder) {
   std::vector<std::string> paths;
   std::error_code ignored;
   for (const std::string& file : files) {
-    if (!fs::exists(file, ignored)) throw vp::InputError("no program source '" + file + "'");
     const fs::path from = fs::weakly_canonical(fs::absolute(folder), ignored);
     paths.push_back(fs::weakly_canonical(fs::absolute(file), ignored).lexically_relative(from));
   }
@@ -156,7 +182,9 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
   const handoff::RtlFinder rtl(options.rtl);
   const block_design::ImportedDesign design = block_design::import_design(handoff, rtl);
   const fs::path folder = options.output.empty() ? handoff.name : options.output;
-  const std::vector<std::string> sources = from_folder(options.programs, folder);
+  const std::vector<std::string> programs = program_sources(options.programs);
+  const std::vector<std::string> texts = texts_of(programs);
+  const std::vector<std::string> sources = from_folder(programs, folder);
   host::prepare_output_folder(folder.string());
   out << DesignMerge(folder, design.text).write() << "\n";
   const auto write = [&](const std::string& name, const std::string& text) {
@@ -167,12 +195,12 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
   std::string problem;
   std::string xparameters = xparameters_of(folder, problem);
   const block_design::DriverFiles drivers =
-      block_design::driver_files(handoff, drivers_of(handoff, rtl, options.programs), xparameters);
+      block_design::driver_files(handoff, drivers_of(handoff, rtl, programs), xparameters);
   if (!xparameters.empty()) {
     xparameters.insert(xparameters.rfind("\n#endif"), drivers.names);
     write("xparameters.h", xparameters);
   }
-  const bool is_sdt = block_design::is_for_device_tree(texts_of(options.programs), xparameters);
+  const bool is_sdt = block_design::is_for_device_tree(texts, xparameters);
   if (!sources.empty() || !options.rtl.empty() || !fs::exists(folder / "CMakeLists.txt", ignored))
     write("CMakeLists.txt", block_design::import_cmake(handoff.name, design, sources, is_sdt));
   for (const auto& [name, text] : drivers.files) {

@@ -2,8 +2,8 @@
 
 #include <cli/application.h>
 #include <cli/commands.h>
+#include <cli/diagram_page.h>
 #include <cli/frame_runner.h>
-#include <cli/options.h>
 #include <cli/program.h>
 #include <cli/wave_page.h>
 #include <host/output_folder.h>
@@ -292,7 +292,7 @@ struct Views {
 
 /// Writes them, after the result. One that cannot be written does not keep the other from it; the
 /// first error is noted if there was none before. Returns whether there is a page.
-bool write_views(const Views& views, const Simulation& simulation, std::exception_ptr& error) {
+bool write_views(const Views& views, Simulation& simulation, std::exception_ptr& error) {
   const auto attempt = [&](const auto& write) {
     try {
       write();
@@ -314,6 +314,7 @@ bool write_views(const Views& views, const Simulation& simulation, std::exceptio
   const std::string& profile = simulation.software_profile();
   if (!profile.empty()) views.page->add_member("profile", profile);
   if (simulation.wrote_trace()) views.page->add_member("waves", waves_of_run(*views.trace));
+  add_diagram(*views.page, simulation.zynq(), views.configuration, views.folder.path());
   return attempt([&] {
     views.folder.add(page::report_name);
     page::write_report(views.folder.path(), views.page->json(views.configuration.parameters()));

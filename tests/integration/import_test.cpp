@@ -136,6 +136,26 @@ BOOST_FIXTURE_TEST_CASE(other_commands_take_the_design, Imported) {
   BOOST_TEST(has(none.err, "design 'small' lacks its PS program 'build/small': build"), none.err);
 }
 
+// Without Graphviz the page says so.
+BOOST_FIXTURE_TEST_CASE(the_page_of_a_run_has_the_block_design, Imported) {
+  import();
+  run({"--design", "mine/design.yaml", "--program", MARKERVP_IMPORTED});
+  const std::string page = kit::read_file(*this / "out/report.html");
+  if (kit::run_process("/bin/sh", {"-c", "command -v dot"}, path()).exit_code != 0) {
+    BOOST_TEST(has(page, "--diagram needs Graphviz"));
+    return;
+  }
+  const std::size_t at = page.find(R"("diagram":{"svg":"\u003csvg )");
+  BOOST_TEST_REQUIRE(at != std::string::npos);
+  const std::string diagram = page.substr(at, page.find("\u003c/script", at) - at);
+  for (const char* what :
+       {R"(>axi_gpio_0\u003c/title)", R"("name":"axi_gpio_0","ip":"xilinx.com:ip:axi_gpio:2.0")",
+        R"(["0x41200000","GPIO_DATA","rw",)", R"(["pl.axi_dma_0.m_axi_mm2s.link.bytes_read",101,)",
+        R"(["pl.axi_dma_0_M_AXIS_MM2S.beats",26,)"})
+    BOOST_TEST(has(diagram, what), what);
+  BOOST_TEST(!std::filesystem::exists(*this / "out/diagram.svg"), "it is in the page");
+}
+
 BOOST_FIXTURE_TEST_CASE(a_sweep_finds_the_knee_of_a_clock, Imported) {
   import();
   // A stub would leave every verdict open: a GPIO is in the place of own_0.
@@ -165,6 +185,21 @@ BOOST_FIXTURE_TEST_CASE(a_sweep_finds_the_knee_of_a_clock, Imported) {
                            "axi_dma_0.lenght_width"));
   BOOST_TEST(
       has(markervp({"sweep", "wrong.yaml"}).err, "did you mean 'pl.axi_dma_0.length_width'"));
+}
+
+BOOST_FIXTURE_TEST_CASE(a_program_is_files_or_the_folder_of_an_application, Imported) {
+  const auto with = [&](const std::string& program) {
+    return markervp({"import", "small.hwh", "-o", "mine", "--program", program});
+  };
+  std::filesystem::create_directories(*this / "src/lib");
+  BOOST_TEST(has(with("src").err, "no source in C or C++ in 'src'"));
+  BOOST_TEST(has(with("main.c").err, "no program source 'main.c'"));
+  BOOST_TEST(!std::filesystem::exists(*this / "mine"), "nothing is begun");
+  for (const char* name : {"src/main.c", "src/main.h", "src/lscript.ld", "src/lib/more.cpp"})
+    kit::write_file(*this / name, "\n");
+  BOOST_TEST(with("src").exit_code == 0);
+  BOOST_TEST(has(file("CMakeLists.txt"), "  \"../src/lib/more.cpp\"\n  \"../src/main.c\")\n"),
+             file("CMakeLists.txt"));
 }
 
 BOOST_FIXTURE_TEST_CASE(a_folder_of_the_users_is_left_alone, Imported) {

@@ -46,6 +46,9 @@ blocks.manyWaves = { waves: samples.waves({ changes: 1e6 }) };
 blocks.traced = samples.run({ frames: 3 });
 blocks.traced.extras.waves = samples.waves({ accesses: true });
 blocks.traced.extras.timeline.frames = [{ index: 0, start: 2, end: 8 }]; // µs
+blocks.traced.extras.diagram = samples.diagram();
+blocks.notDrawn = samples.run({ frames: 1 });
+blocks.notDrawn.extras.diagram = { problem: "--diagram needs Graphviz" };
 let browser;
 
 before(async () => {
@@ -794,4 +797,22 @@ test("traced: the waves point at the frame, and the timeline at the waves", () =
   assert.match(await page.textContent("#waves > .note:last-child"), /^in .* 1 · software: step_\d · last access: read axi_gpio_0\.GPIO_DATA, from which line: markervp history \. --register axi_gpio_0\.GPIO_DATA --before \d+ps$/);
   await page.click("#waves button.plain");
   assert.equal(await page.$eval("#frame", (section) => section.getBoundingClientRect().top < innerHeight), true);
+}));
+
+test("traced: a part of the block design shows its registers, traffic and waves", () => open("traced", async (page) => {
+  await page.waitForSelector(".wave-scroll[data-drawn]");
+  assert.equal(await page.$$eval("#diagram svg [role=button]", (nodes) => nodes.length), 2, "the legend is no part");
+  await page.click("#diagram svg [aria-label=engine]");
+  assert.equal(await page.textContent("#diagram h3"), "engine, me:user:engine:1.0");
+  const text = await page.textContent("#diagram");
+  for (const what of ["0x43C00004", "STATUS", "pl.bus.engine.reads", "12 345"]) assert.ok(text.replace(/\u202f|\u00a0/g, " ").includes(what), what);
+  await page.click("#diagram button:text(\"Show the waves of engine\")");
+  assert.equal(await page.inputValue("#waves input"), "pl.engine");
+  await page.focus("#diagram svg [aria-label=ps]");
+  await page.keyboard.press("Enter");
+  assert.match(await page.textContent("#diagram"), /Nothing was counted in it.*None in this page: a run with --trace/);
+}));
+
+test("notDrawn: the page says why there is no picture", () => open("notDrawn", async (page) => {
+  assert.match(await page.textContent("#diagram"), /No picture: --diagram needs Graphviz/);
 }));

@@ -281,11 +281,21 @@ function waves({ changes = 2000, accesses = false } = {}) {
       words("top.state", (i) => ["idle", "run", "</script><img src=x onerror='window.hacked=1'>", "x", "0x1F", "0xx", ""][i]),
       words("top.level", (i) => String(i * 1.5), "real"),
       words("ps.cpu.function_name", (i) => `step_${i}`),
-      ...(accesses ? [words("ps.cpu.m_axi.access", (i) => ["read axi_gpio_0.GPIO_DATA", ""][i % 2])] : []),
+      ...(accesses ? [words("ps.cpu.m_axi.access", (i) => ["read axi_gpio_0.GPIO_DATA", ""][i % 2]), words("pl.engine.state", (i) => `state_${i}`)] : []),
       { name: "top.copy", form: "bit", bits: 1, sameAs: 0 },
     ],
     lanes: [{ name: "top.m_axi.read_1", count: some, spans: packed(list(some, (i) => [i && 20 * half, 8 * half, i % 7 * 2 + (i % 5 === 0 ? 1 : 0)]).flat()), words: list(7, (i) => `read 0x${i}000 4 beats OKAY`) }],
   };
 }
 
-module.exports = { waves, comparedWith, run, psOnly, foreign, gaveUp, sweep, validation, comparison, detectors, faults, page };
+/** A block design of two parts and a clock, as Graphviz draws them. */
+function diagram() {
+  const node = (name, x) => `<g class="node"><title>${name}</title><polygon fill="#cfe8ff" stroke="black" points="${x},8 ${x + 90},8 ${x + 90},44 ${x},44"/><text x="${x + 10}" y="30">${name}</text></g>`;
+  return {
+    svg: `<svg width="360pt" height="60pt" viewBox="0 0 360 60" xmlns="http://www.w3.org/2000/svg"><g class="graph">${node("ps", 10)}${node("engine", 130)}${node("clock ps.FCLK_CLK0", 250)}</g></svg>`,
+    parts: [{ name: "ps", ip: "xilinx.com:ip:processing_system7:5.5", module: "ps2", registers: [], traffic: [] },
+      { name: "engine", ip: "me:user:engine:1.0", module: "pl.engine", registers: [["0x43C00004", "STATUS", "ro", "what it does"]], traffic: [["pl.bus.engine.reads", 12345, "read transactions"]] }],
+  };
+}
+
+module.exports = { diagram, waves, comparedWith, run, psOnly, foreign, gaveUp, sweep, validation, comparison, detectors, faults, page };

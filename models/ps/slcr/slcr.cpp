@@ -92,6 +92,10 @@ Slcr::Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
                 "value of BOOT_MODE: 5 boots from the SD card"),
       idcode("idcode", default_idcode, vp::Unit::address, vp::Source::published,
              "value of PSS_IDCODE: that of the device, revision 0 (UG585 appendix B.28)"),
+      mio_pull_ups("mio_pull_ups", slcr::mio_pin::pull_ups_at_reset, vp::Unit::address,
+                   {0, (std::uint64_t{1} << slcr::mio_pins) - 1}, vp::Source::published,
+                   "MIO pins whose pull-up the boot code leaves on, a bit a pin: those of reset "
+                   "(UG585, table 6-4)"),
       fclk_reset0_n("fclk_reset0_n", 1, programmed_by_boot),
       fclk_reset1_n("fclk_reset1_n", 1, programmed_by_boot),
       fclk_reset2_n("fclk_reset2_n", 1, programmed_by_boot),
@@ -122,6 +126,11 @@ Slcr::Slcr(sc_core::sc_module_name name, vp::ClockScheduler& scheduler,
 
 void Slcr::program_as_boot_code() {
   for (const BootValue& boot : boot_values) registers[boot.offset] = boot.value;
+  for (unsigned pin = 0; pin < slcr::mio_pins; ++pin) {
+    vp::Register& control = registers[slcr::MIO_PIN(pin)];
+    control.clear_bits(slcr::mio_pin::PULLUP);
+    if ((mio_pull_ups >> pin & 1) != 0) control.set_bits(slcr::mio_pin::PULLUP);
+  }
   dci_reset_ = dci_was_reset_ = true;
 }
 

@@ -67,6 +67,7 @@ class Slcr : public sc_core::sc_module {
   vp::Parameter<double> ps_clk;
   vp::Parameter<std::uint32_t> boot_mode;
   vp::Parameter<std::uint32_t> idcode;
+  vp::Parameter<std::uint64_t> mio_pull_ups;
 
   vp::Signal<bool> fclk_reset0_n, fclk_reset1_n, fclk_reset2_n, fclk_reset3_n;  ///< to the PL
   vp::Signal<bool> uart0_rst, uart1_rst;                                        ///< active high

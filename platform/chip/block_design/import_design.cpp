@@ -1,5 +1,7 @@
 #include <chip/block_design/import_design.h>
 
+#include <slcr_registers.h>
+
 #include <chip/handoff/netlist.h>
 #include <fpga/device/clock_plan.h>
 #include <fpga/device/device.h>
@@ -138,6 +140,7 @@ class Writer {
     if (ps("PCW_UIPARAM_DDR_BUS_WIDTH").rfind("16", 0) == 0) setting("power.ddr.width", "16");
     setting("ps.ethernet", wishes.ethernet ? "true" : "false");
     write_uarts();
+    write_pull_ups();
   }
 
   /// The clocks of the PL that are on. FCLK_CLK1 exists in any case: unused, it asks for nothing
@@ -180,6 +183,18 @@ class Writer {
     }
     setting("ps.uart0.enabled", first ? "true" : "false");
     setting("ps.uart1.enabled", second ? "true" : "false");
+  }
+
+  /// Boot code sets up the MIO pins that are in use; of the others nothing is said.
+  void write_pull_ups() {
+    std::uint64_t on = slcr::mio_pin::pull_ups_at_reset;
+    for (unsigned pin = 0; pin < slcr::mio_pins; ++pin) {
+      const std::string said = ps("PCW_MIO_" + std::to_string(pin) + "_PULLUP");
+      const std::uint64_t bit = std::uint64_t{1} << pin;
+      if (said == "enabled") on |= bit;
+      if (said == "disabled") on &= ~bit;
+    }
+    if (on != slcr::mio_pin::pull_ups_at_reset) setting("ps.slcr.mio_pull_ups", vp::hex(on));
   }
 
   void write_part(const Module& module) {

@@ -351,7 +351,7 @@ BOOST_AUTO_TEST_CASE(pull_ups_follow_their_registers) {
     const std::uint64_t bit = std::uint64_t{1} << pin;
     on = is_on ? on | bit : on & ~bit;
   });
-  constexpr std::uint64_t all = ((std::uint64_t{1} << slcr::mio_pins) - 1) & ~std::uint64_t{0x1FC};
+  constexpr std::uint64_t all = slcr::mio_pin::pull_ups_at_reset;
   BOOST_TEST(on == all);
   b.run([&] {
     set(slcr::MIO_PIN(50), 0x0600);
@@ -364,6 +364,24 @@ BOOST_AUTO_TEST_CASE(pull_ups_follow_their_registers) {
     BOOST_TEST(on == (all & ~(std::uint64_t{1} << 50)));
     return 0;
   });
+}
+
+BOOST_AUTO_TEST_CASE(boot_code_switches_the_pull_ups_that_are_set) {
+  const std::string setting = "slcr.mio_pull_ups=0x20000000000004";  // pins 2 and 53
+  SlcrBench booted({setting});
+  booted.run([] {
+    BOOST_TEST(get(slcr::MIO_PIN(2)) == 0x1601u);
+    BOOST_TEST(get(slcr::MIO_PIN(9)) == 0x0601u);
+    BOOST_TEST(get(slcr::MIO_PIN(53)) == 0x1601u);
+    return 0;
+  });
+  SlcrBench bare({setting, without_boot_code.front()});
+  bare.run([] {
+    BOOST_TEST(get(slcr::MIO_PIN(2)) == 0x0601u);
+    BOOST_TEST(get(slcr::MIO_PIN(9)) == 0x1601u);
+    return 0;
+  });
+  BOOST_CHECK_THROW(SlcrBench({"slcr.mio_pull_ups=0x40000000000000"}), vp::InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -166,6 +166,7 @@ export function waveView(data, { frames = [], moved = () => {} } = {}) {
 
   const button = (text, label, act) => h("button", { type: "button", "aria-label": label, onclick: act }, text);
   const find = h("input", { type: "search", placeholder: "Find signals", "aria-label": "Find signals", oninput: () => { search = find.value; relist(); } });
+  const findText = (text) => { find.value = search = text; relist(); };
   const tools = h("div", { class: "controls" }, find,
     frames.length > 0 && h("select", { "aria-label": "Show", onchange: (event) => { const frame = frames[Number(event.target.value)] ?? whole; show(frame.from, frame.to); } },
       h("option", { value: "-1" }, "All"), frames.map((frame, i) => h("option", { value: String(i) }, frame.name))),
@@ -183,5 +184,5 @@ export function waveView(data, { frames = [], moved = () => {} } = {}) {
     }
     return "";
   }
-  return { element: h("div", { class: "waves" }, tools, scroller, status, elsewhere), setCursor, valueOf, lastOf };
+  return { element: h("div", { class: "waves" }, tools, scroller, status, elsewhere), setCursor, valueOf, lastOf, find: findText };
 }

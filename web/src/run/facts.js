@@ -11,7 +11,7 @@ function figureIn(figures, path, unit) {
   return { title: of(found?.title || name).replace("*", name), unit: of(found?.people_unit ?? found?.unit ?? ""), factor: found?.factor ?? 1 };
 }
 
-/** A moment, {ps, frame}, that one part of the page points at and others show: listeners get it, and who points at it. */
+/** What one part of the page points at and others show, a moment {ps, frame} or {signals} of a name: listeners get it, and who points at it. */
 function sharedMoment() {
   const listeners = new Set();
   return {

@@ -2,6 +2,7 @@
 import { application } from "../application.js";
 import { counted } from "../kit/format.js";
 import { makeRun } from "./facts.js";
+import { diagram } from "./diagram.js";
 import { guidance } from "./guidance.js";
 import { handshakes } from "./handshakes.js";
 import { power } from "./power.js";
@@ -29,6 +30,6 @@ export function runPage(result, extras, figures) {
   run.overTime = () => overTime(run);
   return {
     title: title(run), subtitle: subtitle(run),
-    sections: [verdict(run), guidance(run), ...application.sections(run), timing(run), waves(run), profile(run), handshakes(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
+    sections: [verdict(run), guidance(run), ...application.sections(run), timing(run), diagram(run), waves(run), profile(run), handshakes(run), power(run), resources(run), frameTable(run), configuration(run), provenance(run)],
   };
 }

@@ -54,6 +54,9 @@ export function waves(run) {
       software && h("span", {}, " · software: ", run.extras.profile ? h("a", { href: "#profile" }, software) : software), ...(access ? sourceLine(access, ps) : []));
   };
   const viewer = waveView(data, { frames: spans, moved });
-  run.moment.listen((moment, from) => { if (from !== section && moment.ps !== undefined) viewer.setCursor(moment.ps); });
+  run.moment.listen((moment, from) => {
+    if (moment.signals !== undefined) viewer.find(moment.signals);
+    if (from !== section && moment.ps !== undefined) viewer.setCursor(moment.ps);
+  });
   return section(help(), leftOut(data), viewer.element, here);
 }

@@ -105,6 +105,8 @@ constexpr std::uint32_t MIO_PIN(unsigned pin) {
 constexpr unsigned mio_pins = 54;
 namespace mio_pin {
 constexpr std::uint32_t PULLUP = 1u << 12;
+/// A bit a pin: all but 2 to 8, which choose how the chip boots (UG585, table 6-4).
+constexpr std::uint64_t pull_ups_at_reset = 0x003F'FFFF'FFFF'FE03;
 }  // namespace mio_pin
 constexpr std::uint32_t MIO_LOOPBACK = 0x804;
 constexpr std::uint32_t MIO_MST_TRI0 = 0x80C;

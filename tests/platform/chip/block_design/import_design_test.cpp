@@ -47,6 +47,7 @@ BOOST_AUTO_TEST_CASE(what_is_written_is_read_back) {
   BOOST_TEST(setting("ps.ddr.size") == "511 MiB");
   BOOST_TEST(setting("power.ddr.width") == "16");
   BOOST_TEST(setting("ps.uart1.enabled") == "false");
+  BOOST_TEST(setting("ps.slcr.mio_pull_ups") == "0x3FFFFFFFFFBE03", "as at reset but for pin 14");
 }
 
 // The address editor may list another slave between two windows of one.

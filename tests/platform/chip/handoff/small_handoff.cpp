@@ -93,7 +93,11 @@ HwhText small_handoff() {
                   parameter("PCW_ACT_APU_PERIPHERAL_FREQMHZ", "650.000000") +
                   parameter("PCW_DDR_RAM_HIGHADDR", "0x1FFFFFFF") +
                   parameter("PCW_UIPARAM_DDR_BUS_WIDTH", "16 Bit") +
-                  parameter("PCW_UART0_PERIPHERAL_ENABLE", "1"),
+                  parameter("PCW_UART0_PERIPHERAL_ENABLE", "1") +
+                  parameter("PCW_MIO_3_PULLUP", "disabled") +
+                  parameter("PCW_MIO_14_PULLUP", "disabled") +
+                  parameter("PCW_MIO_15_PULLUP", "&lt;Select&gt;") +
+                  parameter("PCW_MIO_16_PULLUP", "enabled"),
               pin("O", "FCLK_CLK0", fclk, 1, clock) +
                   pin("O", "FCLK_RESET0_N", "ps_FCLK_RESET0_N", 1, R"(SIGIS="rst")") +
                   clocked("M_AXI_GP0_ACLK") + clocked("S_AXI_HP0_ACLK") +
