@@ -80,20 +80,6 @@ hal_dma_buffer Cpu::allocate_dma(std::size_t size, std::size_t alignment) {
   return buffer;
 }
 
-void Cpu::connect_interrupt(hal_interrupt_handler handler, void* context) {
-  catch_up();
-  handler_ = handler;
-  handler_context_ = context;
-}
-
-bool Cpu::enable_interrupt(bool enable) {
-  catch_up();
-  const bool was_enabled = !masked_;
-  masked_ = !enable;
-  take_interrupts();
-  return was_enabled;
-}
-
 void Cpu::write_console(const char* text, std::size_t length) {
   look_at(text, length);
   catch_up();

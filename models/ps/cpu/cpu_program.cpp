@@ -19,8 +19,6 @@ constexpr std::uint64_t first_jump_ps = 10'000;
 constexpr unsigned most_doublings = 40;
 /// 10 us: it may wait for what the other core writes.
 constexpr unsigned most_beside_other = 10;
-/// Handlers in a row after which an interrupt is taken to be unacknowledged (decision).
-constexpr unsigned many_handlers = 1'000;
 constexpr std::uint64_t ps_per_ns = 1'000;
 /// Where basic blocks take time, that of so many passes at once (decision): the longest that an
 /// interrupt waits for a loop.
@@ -222,29 +220,6 @@ void Cpu::call_handler() {
   } catch (...) {
   }
   fail("the interrupt handler threw an exception" + thrown);
-}
-
-void Cpu::check_acknowledged() {
-  if (!interrupt_pending()) {
-    unacknowledged_ = 0;
-    return;
-  }
-  if (++unacknowledged_ == 1) first_unacknowledged_ps_ = now_ps();
-  if (unacknowledged_ != many_handlers) return;
-  const Request request = describe_request_ ? describe_request_() : Request{};
-  const std::string which = request.text.empty() ? "" : " (" + request.text + ")";
-  const std::string so_often = std::to_string(many_handlers) + " times in a row";
-  if (request.since_ps <= first_unacknowledged_ps_) {
-    vp::warn(*this, "/markervp/cpu/not_acknowledged",
-             "the interrupt handler has returned " + so_often + " with an interrupt still pending" +
-                 which + ": acknowledge it at the device, and end it at the interrupt controller");
-  } else {
-    vp::warn(*this, "/markervp/cpu/overrun",
-             "interrupts come faster than they are handled: the handler has returned " + so_often +
-                 ", since " + vp::format_time(first_unacknowledged_ps_) +
-                 ", with the next one pending" + which +
-                 ": let them come more rarely, or do less in the handler");
-  }
 }
 
 // A bad pointer is the program's fault, not that of who reads it for the program: the fault trap

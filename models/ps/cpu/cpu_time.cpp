@@ -9,7 +9,6 @@
 #include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
 #include <vp/error.h>
-#include <vp/report.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
@@ -396,96 +395,6 @@ std::string Cpu::reason_of_wait(bool polls) const {
   const bool masked = masked_ && !in_handler_now_;
   return explain_wait_(
       {masked, polls ? std::optional<std::uint32_t>(last_look_.address) : std::nullopt});
-}
-
-bool Cpu::irq_is_low(const void* cpu) {
-  return static_cast<const Cpu*>(cpu)->interrupt_pending();
-}
-
-void Cpu::on_change(vp::SignalBase&, std::uint32_t) {
-  if (interrupt_pending()) scheduler_.check_condition();
-}
-
-void Cpu::run_handler() {
-  if (!handler_) fail("an interrupt is pending and IRQ is unmasked, but no handler is connected");
-  ++interrupts;
-  masked_ = true;
-  in_handler_now_ = true;
-  in_handler = true;
-  activity_.enter_handler();
-  open_before_handler_ = open_functions_;
-
-  if (running_ != this) take_turn();
-  if (both_started_) handler_begins();
-  spend_cycles(settings_.interrupt_entry);
-  if (moment_listener_) moment_listener_(Moment::handler_begins);
-  call_handler();
-  spend_blocks();
-  if (open_functions_ != open_before_handler_) {
-    misuse("the interrupt handler returned without leaving its function");
-  }
-  spend_cycles(settings_.interrupt_exit);
-  catch_up();
-  if (moment_listener_) moment_listener_(Moment::handler_over);
-
-  open_before_handler_ = 0;
-  activity_.leave_handler();
-  in_handler = false;
-  in_handler_now_ = false;
-  masked_ = false;
-  event_ = true;
-  monitor_ = {};
-  check_acknowledged();
-  if (after_interrupt_) leave_interrupt();
-}
-
-// The program may continue another of its contexts: what this one did ahead waits until it is
-// continued itself.
-void Cpu::leave_interrupt() {
-  Timeline ahead;
-  std::swap(ahead, timeline_);
-  {
-    const ProgramWatch::ProgramCode code;
-    after_interrupt_();
-  }
-  spend_blocks();
-  std::swap(ahead, timeline_);
-}
-
-void Cpu::wait_for_interrupt() {
-  if (!masked_ && !in_handler_now_ && !slept_unmasked_) {
-    slept_unmasked_ = true;
-    vp::warn(*this, "/markervp/cpu/sleeps_unmasked",
-             "hal_wait_for_interrupt() with IRQ unmasked: an interrupt that comes between the last "
-             "check of what it changes and the sleep does not wake the CPU; mask IRQ before the "
-             "check, with hal_interrupt_enable(false)");
-  }
-  catch_up();
-  sleep();
-  take_interrupts();
-}
-
-// While the second core is awake, neither core runs ahead, so that simultaneous actions have a
-// defined order.
-void Cpu::doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition) {
-  const std::uint64_t start = dozes_since_ps_ = now_ps();
-  asleep = true;
-  if (number_ != 0) scheduler_.set_lookahead(settings_.quantum);
-  scheduler_.pass_from(start, until_ps, condition, this);
-  if (number_ != 0) {
-    scheduler_.set_lookahead(0);
-    scheduler_.let_others_go_first();
-  }
-  asleep = false;
-  activity_.idle(now_ps() - start);
-}
-
-void Cpu::sleep() {
-  while (!interrupt_pending()) {
-    doze(std::max(deadline_ps_, now_ps()), irq_is_low);
-    if (!interrupt_pending())
-      meet_deadline("it waits for an interrupt, and none came", reason_of_wait(false));
-  }
 }
 
 // For what no device of the platform tells. Interrupts run their handlers meanwhile; the time-out

@@ -1,0 +1,148 @@
+// Interrupts: when one is taken, what runs then, and the sleep until one comes.
+#include <ps/cpu/cpu.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <ps/cpu/cores.h>
+#include <vp/report.h>
+#include <vp/unit.h>
+
+namespace ps {
+
+namespace {
+
+/// Handlers in a row after which an interrupt is taken to be unacknowledged (decision).
+constexpr unsigned many_handlers = 1'000;
+
+}  // namespace
+
+void Cpu::connect_interrupt(hal_interrupt_handler handler, void* context) {
+  catch_up();
+  handler_ = handler;
+  handler_context_ = context;
+}
+
+bool Cpu::enable_interrupt(bool enable) {
+  catch_up();
+  const bool was_enabled = !masked_;
+  masked_ = !enable;
+  take_interrupts();
+  return was_enabled;
+}
+
+bool Cpu::irq_is_low(const void* cpu) {
+  return static_cast<const Cpu*>(cpu)->interrupt_pending();
+}
+
+void Cpu::on_change(vp::SignalBase&, std::uint32_t) {
+  if (interrupt_pending()) scheduler_.check_condition();
+}
+
+void Cpu::run_handler() {
+  if (!handler_) fail("an interrupt is pending and IRQ is unmasked, but no handler is connected");
+  ++interrupts;
+  masked_ = true;
+  in_handler_now_ = true;
+  in_handler = true;
+  activity_.enter_handler();
+  open_before_handler_ = open_functions_;
+
+  if (running_ != this) take_turn();
+  if (both_started_) handler_begins();
+  spend_cycles(settings_.interrupt_entry);
+  if (moment_listener_) moment_listener_(Moment::handler_begins);
+  call_handler();
+  spend_blocks();
+  if (open_functions_ != open_before_handler_) {
+    misuse("the interrupt handler returned without leaving its function");
+  }
+  spend_cycles(settings_.interrupt_exit);
+  catch_up();
+  if (moment_listener_) moment_listener_(Moment::handler_over);
+
+  open_before_handler_ = 0;
+  activity_.leave_handler();
+  in_handler = false;
+  in_handler_now_ = false;
+  masked_ = false;
+  event_ = true;
+  monitor_ = {};
+  check_acknowledged();
+  if (after_interrupt_) leave_interrupt();
+}
+
+// The program may continue another of its contexts: what this one did ahead waits until it is
+// continued itself.
+void Cpu::leave_interrupt() {
+  Timeline ahead;
+  std::swap(ahead, timeline_);
+  {
+    const ProgramWatch::ProgramCode code;
+    after_interrupt_();
+  }
+  spend_blocks();
+  std::swap(ahead, timeline_);
+}
+
+void Cpu::wait_for_interrupt() {
+  if (!masked_ && !in_handler_now_ && !slept_unmasked_) {
+    slept_unmasked_ = true;
+    vp::warn(*this, "/markervp/cpu/sleeps_unmasked",
+             "hal_wait_for_interrupt() with IRQ unmasked: an interrupt that comes between the last "
+             "check of what it changes and the sleep does not wake the CPU; mask IRQ before the "
+             "check, with hal_interrupt_enable(false)");
+  }
+  catch_up();
+  sleep();
+  take_interrupts();
+}
+
+// While the second core is awake, neither core runs ahead, so that simultaneous actions have a
+// defined order.
+void Cpu::doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition) {
+  const std::uint64_t start = dozes_since_ps_ = now_ps();
+  asleep = true;
+  if (number_ != 0) scheduler_.set_lookahead(settings_.quantum);
+  scheduler_.pass_from(start, until_ps, condition, this);
+  if (number_ != 0) {
+    scheduler_.set_lookahead(0);
+    scheduler_.let_others_go_first();
+  }
+  asleep = false;
+  activity_.idle(now_ps() - start);
+}
+
+void Cpu::sleep() {
+  while (!interrupt_pending()) {
+    doze(std::max(deadline_ps_, now_ps()), irq_is_low);
+    if (!interrupt_pending())
+      meet_deadline("it waits for an interrupt, and none came", reason_of_wait(false));
+  }
+}
+
+void Cpu::check_acknowledged() {
+  if (!interrupt_pending()) {
+    unacknowledged_ = 0;
+    return;
+  }
+  if (++unacknowledged_ == 1) first_unacknowledged_ps_ = now_ps();
+  if (unacknowledged_ != many_handlers) return;
+  const Request request = describe_request_ ? describe_request_() : Request{};
+  const std::string which = request.text.empty() ? "" : " (" + request.text + ")";
+  const std::string so_often = std::to_string(many_handlers) + " times in a row";
+  if (request.since_ps <= first_unacknowledged_ps_) {
+    vp::warn(*this, "/markervp/cpu/not_acknowledged",
+             "the interrupt handler has returned " + so_often + " with an interrupt still pending" +
+                 which + ": acknowledge it at the device, and end it at the interrupt controller");
+  } else {
+    vp::warn(*this, "/markervp/cpu/overrun",
+             "interrupts come faster than they are handled: the handler has returned " + so_often +
+                 ", since " + vp::format_time(first_unacknowledged_ps_) +
+                 ", with the next one pending" + which +
+                 ": let them come more rarely, or do less in the handler");
+  }
+}
+
+}  // namespace ps
