@@ -134,6 +134,9 @@ std::string rtl_targets(const ImportedDesign& design) {
             quoted_lines(part.rtl.files) +
             (part.rtl.parameters.empty() ? ""
                                          : "\n  PARAMETERS " + vp::join(part.rtl.parameters, " ")) +
+            (part.rtl.interfaces.empty()
+                 ? ""
+                 : "\n  INTERFACES \"" + vp::join(part.rtl.interfaces, "\" \"") + "\"") +
             ")\nset_target_properties(" + part.target +
             " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\n\n";
   }

@@ -73,12 +73,13 @@ std::string Archive::read(const std::string& name) const {
   const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> file(
       zip_fopen(zip_.get(), name.c_str(), 0), &zip_fclose);
   if (!file) fail("cannot be read at '" + name + "' (" + zip_strerror(zip_.get()) + ")");
-  // One byte more than it says: the check sum is compared at the end.
-  std::string text(stat.size + 1, '\0');
+  std::string text(stat.size, '\0');
   const zip_int64_t read = zip_fread(file.get(), text.data(), text.size());
-  if (read < 0 || static_cast<zip_uint64_t>(read) != stat.size)
+  // libzip compares the check sum where a read finds the end, and only there.
+  char more = 0;
+  if (read < 0 || static_cast<zip_uint64_t>(read) != stat.size ||
+      zip_fread(file.get(), &more, 1) != 0)
     fail("is damaged at '" + name + "' (" + zip_file_strerror(file.get()) + "): export it again");
-  text.resize(stat.size);
   return text;
 }
 

@@ -23,10 +23,10 @@ struct Port {
   std::string name;
   char direction = 'I';  ///< 'I' into the module (or the design), 'O', or 'B' for both
   unsigned width = 1;
-  std::string kind;          ///< SIGIS: "clk", "rst", "INTERRUPT"; "" for others
-  std::string signal;        ///< the net; "" if unconnected
-  std::optional<double> hz;  ///< of a clock
-  bool active_low = false;   ///< of a reset: said by POLARITY
+  std::string kind;                ///< SIGIS: "clk", "rst", "INTERRUPT"; "" for others
+  std::string signal;              ///< the net; "" if unconnected
+  std::optional<double> hz;        ///< of a clock
+  std::optional<bool> active_low;  ///< of a reset: what POLARITY says
 };
 
 /// A bundle of pins.

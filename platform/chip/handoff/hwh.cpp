@@ -124,7 +124,8 @@ class HwhReader {
     const std::string_view kind = attribute(node, "SIGIS");
     if (kind != "undef") port.kind = vp::visible(kind);
     port.signal = vp::visible(attribute(node, "SIGNAME"));
-    port.active_low = attribute(node, "POLARITY") == "ACTIVE_LOW";
+    const std::string_view polarity = attribute(node, "POLARITY");
+    if (!polarity.empty()) port.active_low = polarity == "ACTIVE_LOW";
     const std::string_view hz = attribute(node, "CLKFREQUENCY");
     if (hz.empty()) return port;
     const auto value = vp::Decimal::parse(hz);  // "5e+07" since 2025.2

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <regex>
 #include <set>
 #include <string_view>
 
@@ -112,6 +113,63 @@ void RtlFinder::add_file(const std::string& path) {
 
 namespace {
 
+/// Of the 7 series (UG953).
+const std::regex& primitive_instance(bool vhdl) {
+  static const std::string names =
+      "(BSCANE2|BUFG|BUFGCE|BUFGCE_1|BUFGCTRL|BUFGMUX|BUFGMUX_1|BUFGMUX_CTRL|BUFH|BUFHCE|BUFIO|"
+      "BUFMR|BUFMRCE|BUFR|CAPTUREE2|CARRY4|CFGLUT5|DNA_PORT|DSP48E1|EFUSE_USR|FD[CPRS]E|FDCE_1|"
+      "FIFO18E1|FIFO36E1|FRAME_ECCE2|GT[HPX]E2_CHANNEL|GT[HPX]E2_COMMON|IBUF|IBUFDS|"
+      "IBUFDS_DIFF_OUT|IBUFDS_GTE2|IBUFG|IBUFGDS|ICAPE2|IDDR|IDDR_2CLK|IDELAYCTRL|IDELAYE2|IN_FIFO|"
+      "IOBUF|IOBUFDS|ISERDESE2|LD[CP]E|LUT[1-6]|LUT6_2|MMCME2_ADV|MMCME2_BASE|MUXF[78]|OBUF|OBUFDS|"
+      "OBUFT|OBUFTDS|ODDR|ODELAYE2|OSERDESE2|OUT_FIFO|PLLE2_ADV|PLLE2_BASE|PS7|RAM(32|64)M|"
+      "RAM(32|64|128|256)X1[DS]|RAMB18E1|RAMB36E1|SRL16E|SRLC32E|STARTUPE2|USR_ACCESSE2|XADC)";
+  static const std::regex verilog("\\b" + names + "\\s*(#\\s*\\(|[A-Za-z_]\\w*\\s*\\()");
+  static const std::regex entity(":\\s*" + names + "\\s+(generic|port)\\s+map\\b",
+                                 std::regex::icase);
+  return vhdl ? entity : verilog;
+}
+
+/// The text without comments, and without what stands under `ifdef, which the compiler decides.
+std::string unconditional(const std::string& text, bool vhdl) {
+  std::string result;
+  bool in_block = false;
+  unsigned depth = 0;
+  for (const std::string& line : vp::split(text, '\n')) {
+    std::string kept;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const std::string_view two = std::string_view(line).substr(i, 2);
+      if (in_block) {
+        if (two == "*/") ++i;
+        in_block = two != "*/";
+      } else if (two == (vhdl ? "--" : "//")) {
+        break;
+      } else if (!vhdl && two == "/*") {
+        in_block = true;
+      } else {
+        kept += line[i];
+      }
+    }
+    if (kept.find("`ifdef") != kept.npos || kept.find("`ifndef") != kept.npos) ++depth;
+    if (depth == 0) result += kept + '\n';
+    if (kept.find("`endif") != kept.npos && depth != 0) --depth;
+  }
+  return result;
+}
+
+/// Primitives of the chip that a source instantiates, each once.
+std::set<std::string> primitives_in(const std::string& source, bool vhdl) {
+  std::set<std::string> found;
+  const std::string text = unconditional(source, vhdl);
+  for (std::sregex_iterator at(text.begin(), text.end(), primitive_instance(vhdl)), end; at != end;
+       ++at) {
+    std::string name = (*at)[1];
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return std::toupper(c); });
+    found.insert(std::move(name));
+  }
+  return found;
+}
+
 /// The numbers among the parameters of the design that the module declares, in its header or behind
 /// the word `parameter`; "NAME=number".
 std::vector<std::string> declared_parameters(const std::string& file, const Module& module,
@@ -138,12 +196,37 @@ std::vector<std::string> declared_parameters(const std::string& file, const Modu
 
 }  // namespace
 
+// What a design says of a pin holds where the source says nothing.
 RtlSources RtlFinder::find(const Module& module) const {
   RtlSources sources = look(module);
+  add_primitives(sources);
+  for (const Port& port : module.ports) {
+    if (port.kind == "rst" && port.direction == 'I' && port.active_low)
+      sources.interfaces.push_back(port.name + (*port.active_low ? ": reset low" : ": reset high"));
+  }
   const auto file = modules_.find(sources.top);
   if (!sources.files.empty() && file != modules_.end())
     sources.parameters = declared_parameters(file->second, module, sources.top);
   return sources;
+}
+
+// Their models are the vendor's, and may be in a folder, too.
+void RtlFinder::add_primitives(RtlSources& sources) const {
+  for (std::size_t i = 0; i < sources.files.size(); ++i) {
+    const std::string file = sources.files[i];
+    for (const std::string& primitive : primitives_in(text_of(file), is_vhdl(file))) {
+      const auto model = modules_.find(primitive);
+      if (model == modules_.end()) {
+        sources.why = file + " instantiates " + primitive +
+                      ", a primitive of the chip (UG953): name a folder that has a model of it";
+        sources.files.clear();
+        return;
+      }
+      if (std::find(sources.files.begin(), sources.files.end(), model->second) ==
+          sources.files.end())
+        sources.files.push_back(model->second);
+    }
+  }
 }
 
 const std::vector<std::string>& RtlFinder::components_of(const Module& module) const {

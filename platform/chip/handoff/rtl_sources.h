@@ -13,7 +13,9 @@ struct RtlSources {
   std::string top;                 ///< module or entity
   std::vector<std::string> files;  ///< absolute; empty: none were found
   std::vector<std::string> parameters =
-      {};                ///< that the top declares and the design sets: "WIDTH=8"
+      {};  ///< that the top declares and the design sets: "WIDTH=8"
+  std::vector<std::string> interfaces =
+      {};                ///< what the design says of pins: "key_reset: reset low"
   std::string why = {};  ///< why no file was found, or what does not fit
 };
 
@@ -35,6 +37,7 @@ class RtlFinder {
  private:
   const std::vector<std::string>& components_of(const Module& module) const;
   RtlSources look(const Module& module) const;
+  void add_primitives(RtlSources& sources) const;
   void add_file(const std::string& path);
   RtlSources packaged(const Module& module, const std::string& component) const;
   RtlSources by_name(const Module& module) const;

@@ -103,6 +103,43 @@ BOOST_FIXTURE_TEST_CASE(what_does_not_fit_is_said, Folders) {
   BOOST_TEST(input_error([&] { RtlFinder({folder("none")}); }).find("no folder '") == 0u);
 }
 
+// Verilator and GHDL know none of them.
+BOOST_FIXTURE_TEST_CASE(primitives_of_the_chip_want_a_model, Folders) {
+  const auto why = [this] { return RtlFinder({folder("plain")}).find(own()).why; };
+  write("plain/helper.sv",
+        "module helper(input clk);\n  OSERDESE2 #(.DATA_WIDTH(10)) s(.CLK(clk));\nendmodule\n");
+  BOOST_TEST(why().find("helper.sv instantiates OSERDESE2, a primitive of the chip (UG953)") !=
+             std::string::npos);
+  for (const std::string harmless : {"// BUFG b(clk);\n", "/* text\n BUFG b(clk); */\n",
+                                     "wire BUFG;\n", "`ifdef FPGA\n BUFG b(clk);\n`endif\n"}) {
+    write("plain/helper.sv", "module helper(input clk);\n" + harmless + "endmodule\n");
+    BOOST_TEST(why() == "");
+  }
+  write("plain/helper.sv", "module helper(input clk);\n BUFG b(clk);\nendmodule\n");
+  BOOST_TEST(why() != "");
+  write("plain/bufg.v", "module BUFG(input I);\nendmodule\n");
+  BOOST_TEST(why() == "");
+  write(
+      "plain/own.vhd",
+      "entity own is end;\narchitecture a of own is begin\n b: ibufds port map (c, d, q);\nend;\n");
+  std::filesystem::remove(*this / "plain/own.v");
+  BOOST_TEST(why().find("instantiates IBUFDS") != std::string::npos);
+}
+
+BOOST_FIXTURE_TEST_CASE(resets_have_the_level_of_the_design, Folders) {
+  handoff::Module module = own();
+  handoff::Port reset;
+  reset.name = "key_reset";
+  reset.kind = "rst";
+  module.ports.push_back(reset);
+  const RtlFinder finder({folder("plain")});
+  BOOST_TEST(finder.find(module).interfaces.empty());
+  module.ports.back().active_low = true;
+  BOOST_TEST(finder.find(module).interfaces == Names{"key_reset: reset low"});
+  module.ports.back().active_low = false;
+  BOOST_TEST(finder.find(module).interfaces == Names{"key_reset: reset high"});
+}
+
 BOOST_FIXTURE_TEST_CASE(an_imported_design_names_it, Folders) {
   const auto handoff = handoff::read_hwh(kit::small_handoff().text(), "small.hwh");
   const auto design = block_design::import_design(handoff, RtlFinder({folder("plain")}));
