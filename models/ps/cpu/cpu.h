@@ -352,7 +352,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void before_change(vp::Clock& clock) override;
   void after_change(vp::Clock&) override {}
 
-  // Time: cpu_time.cpp
+  // Time: cpu_time.cpp; interrupts: cpu_interrupt.cpp
   std::uint64_t now_ps() const { return scheduler_.now_ps(); }
   static std::uint64_t progress(const void* cpu);
   static bool irq_is_low(const void* cpu);
