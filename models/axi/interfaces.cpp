@@ -250,7 +250,8 @@ bool Finder::is_low(const std::string& name, const std::string& said) const {
   refuse(place->place, "reset '" + name +
                            "' does not say at which level it resets: the vendor's "
                            "tools take it for low, most sources mean high; say INTERFACES \"" +
-                           name + ": reset high\" or \"" + name + ": reset low\"");
+                           name + ": reset high\" or \"" + name + ": reset low\", or \"" + name +
+                           ": wire\" if it is none");
 }
 
 Interface Finder::single(std::uint32_t number) const {

@@ -20,7 +20,7 @@ namespace {
 using facts::HardwareMap;
 using trace::json_text;
 
-/// The picture as one line, without what stands before its element.
+/// The picture in one line, from its element on.
 std::string picture_of(const block_design::DesignFile& design, const std::string& scratch) {
   const vp::PartFile file(scratch + ".svg");
   block_design::write_diagram(design, file.path());

@@ -40,7 +40,7 @@ class WindowReader : public vp::WaveHandler {
   /// A trace has nothing before its first instant.
   Moment start() const { return std::max(Moment(window_.from_ps, 0), first_.value_or(Moment())); }
 
-  /// Moments are counted in ps, or in fs if the file's own steps are none of those.
+  /// steps() counts in ps, or in fs where a step of the file is no whole number of ps.
   bool counts_femtoseconds() const { return file_.reader().timescale_fs() % fs_per_ps != 0; }
   std::uint64_t steps(Moment moment) const;
 

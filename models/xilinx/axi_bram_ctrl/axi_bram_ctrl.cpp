@@ -12,12 +12,12 @@ namespace xilinx {
 
 namespace {
 
-constexpr std::uint32_t word_bytes = 4;
+constexpr std::uint32_t lane_bytes = 4;
 constexpr std::uint64_t most_beats = 256;
 constexpr std::uint64_t boundary = 4096;  // AXI: a burst never crosses it
 
 std::uint64_t beats_of(std::uint64_t address, std::uint64_t bytes) {
-  return (address % word_bytes + bytes + word_bytes - 1) / word_bytes;
+  return (address % lane_bytes + bytes + lane_bytes - 1) / lane_bytes;
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ MemoryPort::MemoryPort(sc_core::sc_module_name name, vp::ClockScheduler& schedul
   });
 }
 
-void MemoryPort::read(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed) {
-  transfer(tlm::TLM_READ_COMMAND, address, data, bytes, fixed ? std::min(bytes, word_bytes) : bytes,
+void MemoryPort::read(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed,
+                      unsigned beat_bytes) {
+  transfer(tlm::TLM_READ_COMMAND, address, data, bytes, fixed ? std::min(bytes, beat_bytes) : bytes,
            nullptr);
 }
 
@@ -48,9 +49,10 @@ bool MemoryPort::read_directly(std::uint64_t address, void* data, unsigned bytes
   return true;
 }
 
-void MemoryPort::write(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed) {
+void MemoryPort::write(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed,
+                       unsigned beat_bytes) {
   transfer(tlm::TLM_WRITE_COMMAND, address, data, bytes,
-           fixed ? std::min(bytes, word_bytes) : bytes, nullptr);
+           fixed ? std::min(bytes, beat_bytes) : bytes, nullptr);
 }
 
 void MemoryPort::transfer(tlm::tlm_command command, std::uint64_t address, unsigned char* data,

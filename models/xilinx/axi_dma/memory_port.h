@@ -10,7 +10,7 @@
 
 namespace xilinx {
 
-/// Bytes of a word: streams and memory maps are 32 bits wide.
+/// Bytes of a word: streams and memory maps are 32 bits wide, if a build says no more.
 constexpr unsigned word_bytes = 4;
 
 /// A memory path that several masters share: read and write data channel, each busy until a clock
@@ -38,10 +38,12 @@ class MemoryPort : public sc_core::sc_module {
   void share(MemoryPath& path) { path_ = &path; }
   MemoryPath& path() { return *path_; }
 
-  /// One burst. `fixed`: all words go to the same address (keyhole). `data` stays valid until
-  /// done().
-  void read(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed);
-  void write(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed);
+  /// One burst. `fixed`: all beats, of `beat_bytes`, go to the same address (keyhole). `data` stays
+  /// valid until done().
+  void read(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed,
+            unsigned beat_bytes = word_bytes);
+  void write(std::uint64_t address, unsigned char* data, unsigned bytes, bool fixed,
+             unsigned beat_bytes = word_bytes);
   /// One burst of any kind. Bytes from `width` on go to the first addresses again. `enables`: a
   /// byte for each of `data`, or null; it stays valid, too.
   void transfer(tlm::tlm_command command, std::uint64_t address, unsigned char* data,

@@ -97,8 +97,7 @@ void Mm2sChannel::request(std::uint64_t cycle) {
   Burst& burst = bursts_.emplace_back();
   burst.lead = static_cast<unsigned>(read_address_ % beat_bytes_);
   burst.data.resize(bytes);
-  m_axi.transfer(tlm::TLM_READ_COMMAND, read_address_, burst.data.data(), bytes,
-                 keyhole() ? std::min(bytes, beat_bytes_) : bytes, nullptr);
+  m_axi.read(read_address_, burst.data.data(), bytes, keyhole(), beat_bytes_);
   to_request_ -= bytes;
   buffered_ += bytes;
   if (!keyhole()) read_address_ += bytes;

@@ -218,9 +218,8 @@ unsigned S2mmChannel::buffered_beats(std::uint64_t cycle) const {
 void S2mmChannel::drive_bus(std::uint64_t cycle) {
   if (bus_ == Bus::busy && cycle >= burst_end_) {
     Burst& burst = bursts_.front();
-    const auto bytes = static_cast<unsigned>(burst.data.size());
-    m_axi.transfer(tlm::TLM_WRITE_COMMAND, burst.address, burst.data.data(), bytes,
-                   keyhole() ? std::min(bytes, beat_bytes_) : bytes, nullptr);
+    m_axi.write(burst.address, burst.data.data(), static_cast<unsigned>(burst.data.size()),
+                keyhole(), beat_bytes_);
     bus_ = Bus::answering;
   }
   if (bus_ == Bus::answering && m_axi.done()) end_burst(cycle);

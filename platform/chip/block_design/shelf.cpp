@@ -253,9 +253,8 @@ std::vector<IpRule> rules() {
        "DDR (ACP without coherence, so warnings of caches are those of HP), FCLK 0 to 3, IRQ_F2P, "
        "EMIO GPIO; other pins drive 0"},
       {"axi_dma", Kind::model,
-       "AXI DMA, direct and scatter-gather (PG021); a memory map wider than the stream reads as "
-       "one "
-       "of the stream's width: the same bytes, longer on the bus",
+       "AXI DMA, direct and scatter-gather (PG021); of a memory map wider than the stream MM2S has "
+       "the stream's width: the same bytes, longer on the bus",
        dma_parameters()},
       {"axi_gpio", Kind::model, "AXI GPIO (PG144)", gpio_parameters()},
       {"axi_bram_ctrl",

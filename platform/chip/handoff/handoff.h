@@ -23,10 +23,11 @@ struct Port {
   std::string name;
   char direction = 'I';  ///< 'I' into the module (or the design), 'O', or 'B' for both
   unsigned width = 1;
-  std::string kind;                ///< SIGIS: "clk", "rst", "INTERRUPT"; "" for others
-  std::string signal;              ///< the net; "" if unconnected
-  std::optional<double> hz;        ///< of a clock
-  std::optional<bool> active_low;  ///< of a reset: what POLARITY says
+  std::string kind;          ///< SIGIS: "clk", "rst", "INTERRUPT"; "" for others
+  std::string signal;        ///< the net; "" if unconnected
+  std::optional<double> hz;  ///< of a clock
+  /// Of a reset: POLARITY says so. It says low of sources that say nothing, too.
+  bool active_high = false;
 };
 
 /// A bundle of pins.

@@ -124,8 +124,7 @@ class HwhReader {
     const std::string_view kind = attribute(node, "SIGIS");
     if (kind != "undef") port.kind = vp::visible(kind);
     port.signal = vp::visible(attribute(node, "SIGNAME"));
-    const std::string_view polarity = attribute(node, "POLARITY");
-    if (!polarity.empty()) port.active_low = polarity == "ACTIVE_LOW";
+    port.active_high = attribute(node, "POLARITY") == "ACTIVE_HIGH";
     const std::string_view hz = attribute(node, "CLKFREQUENCY");
     if (hz.empty()) return port;
     const auto value = vp::Decimal::parse(hz);  // "5e+07" since 2025.2

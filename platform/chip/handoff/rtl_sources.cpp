@@ -129,7 +129,7 @@ const std::regex& primitive_instance(bool vhdl) {
   return vhdl ? entity : verilog;
 }
 
-/// The text without comments, and without what stands under `ifdef, which the compiler decides.
+/// The text without comments and without the lines under `ifdef, which the compiler decides on.
 std::string unconditional(const std::string& text, bool vhdl) {
   std::string result;
   bool in_block = false;
@@ -196,13 +196,12 @@ std::vector<std::string> declared_parameters(const std::string& file, const Modu
 
 }  // namespace
 
-// What a design says of a pin holds where the source says nothing.
 RtlSources RtlFinder::find(const Module& module) const {
   RtlSources sources = look(module);
   add_primitives(sources);
   for (const Port& port : module.ports) {
-    if (port.kind == "rst" && port.direction == 'I' && port.active_low)
-      sources.interfaces.push_back(port.name + (*port.active_low ? ": reset low" : ": reset high"));
+    if (port.kind == "rst" && port.direction == 'I' && port.active_high)
+      sources.interfaces.push_back(port.name + ": reset high");
   }
   const auto file = modules_.find(sources.top);
   if (!sources.files.empty() && file != modules_.end())

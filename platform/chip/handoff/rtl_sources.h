@@ -14,9 +14,8 @@ struct RtlSources {
   std::vector<std::string> files;  ///< absolute; empty: none were found
   std::vector<std::string> parameters =
       {};  ///< that the top declares and the design sets: "WIDTH=8"
-  std::vector<std::string> interfaces =
-      {};                ///< what the design says of pins: "key_reset: reset low"
-  std::string why = {};  ///< why no file was found, or what does not fit
+  std::vector<std::string> interfaces = {};  ///< what the design says of pins: "rst: reset high"
+  std::string why = {};                      ///< why no file was found, or what does not fit
 };
 
 /// Finds RTL of the owner's IP: by the component.xml of a packaged IP, which lists its files, else

@@ -2,7 +2,7 @@
 import { tidy } from "../kit/format.js";
 import { palette } from "../kit/theme.js";
 
-/** So many colours are told apart. */
+/** More colours than these look alike. */
 const most = 6;
 
 /** Between the colours of a list, "#rrggbb", at `share` of the way. */
