@@ -78,13 +78,29 @@ async function open(name, use, options = {}) {
   await context.close();
 }
 
+/** Waits until the page has seen where it is: what comes near the window is drawn in the picture after. */
+const rest = (page) => page.evaluate(() => new Promise((done) => {
+  const after = (pictures) => requestAnimationFrame(() => (pictures > 1 ? after(pictures - 1) : done()));
+  after(4);
+}));
+
+/** Scrolls to a chart, and waits until it is drawn. */
+async function show(page, area) {
+  await area.scrollIntoViewIfNeeded();
+  await page.waitForFunction((element) => element.dataset.drawn === "true", await area.elementHandle());
+  await rest(page);
+}
+
 async function scrollThrough(page) {
-  const height = await page.evaluate(() => document.body.scrollHeight);
-  for (let y = 0; y <= height; y += 600) {
-    await page.evaluate((to) => window.scrollTo({ top: to, behavior: "instant" }), y);
-    await page.waitForTimeout(30);
+  for (const area of await page.locator(".chart-area").all()) if (await area.isVisible()) await show(page, area);
+}
+
+/** Waits until `check` no longer throws: what moves is drawn before the next picture, on a busy machine later. */
+async function eventually(check) {
+  for (let left = 600; ; left--) {
+    try { return await check(); } catch (error) { if (left === 0) throw error; }
+    await new Promise((done) => setTimeout(done, 50));
   }
-  await page.waitForFunction(() => [...document.querySelectorAll(".chart-area")].every((area) => !area.checkVisibility() || area.dataset.drawn === "true"));
 }
 
 const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3, detectors: 4, faults: 3 };
@@ -148,7 +164,7 @@ test("charts that are not drawn yet keep their room, however many lines their le
     for (const viewport of [{ width: 1280, height: 900 }, { width: 420, height: 600 }]) {
       await open(name, async (page) => {
         await page.waitForSelector(".chart-area");
-        await page.waitForTimeout(300);
+        await rest(page);
         const before = await places(page);
         const waiting = await page.$$eval(".chart-area", (areas) => areas.filter((area) => !area.dataset.drawn).length);
         assert.ok(waiting > 0, `${name}: some are still to be drawn`);
@@ -175,8 +191,7 @@ test("layers of the frame switch", () => open("run", async (page) => {
 
 test("a bar says what it is", () => open("run", async (page) => {
   const area = page.locator('.chart-area[aria-label^="Stages of a frame"]');
-  await area.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(200);
+  await show(page, area);
   const before = await area.locator("svg").evaluate((svg) => svg.textContent);
   const bars = await area.locator('svg path[fill="#0072b2"]').evaluateAll((paths) => paths.map((path) => {
     const { x, y, width, height } = path.getBoundingClientRect();
@@ -185,9 +200,10 @@ test("a bar says what it is", () => open("run", async (page) => {
   const widest = bars.reduce((a, b) => (b.width > a.width ? b : a));
   await page.mouse.move(widest.x - 3, widest.y);
   await page.mouse.move(widest.x, widest.y);
-  await page.waitForTimeout(400);
-  const after = await area.locator("svg").evaluate((svg) => svg.textContent);
-  assert.match(after.replace(before, ""), /ms/);
+  await eventually(async () => {
+    const after = await area.locator("svg").evaluate((svg) => svg.textContent);
+    assert.match(after.replace(before, ""), /ms/);
+  });
 }));
 
 /** The rows of a chart's table: [[cell…]…]. */
@@ -368,7 +384,7 @@ test("the flame graph names what took most, counts recursion once, and grows by 
 test("a table that comes into sight keeps its buttons: one that is pressed is not taken away", () => open("sweep", async (page) => {
   const button = await page.locator("#points tbody button").first().elementHandle();
   await button.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(200);
+  await rest(page);
   assert.ok(await button.evaluate((element) => element.isConnected));
 }));
 
@@ -431,14 +447,6 @@ function frontOf(points, [a, moreOfA], [b, moreOfB]) {
 const sorted = (numbers) => numbers.map((n) => Number(n.toPrecision(4))).sort((x, y) => x - y);
 const onlyLimited = (point) => point.reasons.every((reason) => reason.startsWith("breaks "));
 
-/** Waits until `check` no longer throws: what moves is drawn before the next picture, on a busy machine later. */
-async function eventually(check) {
-  for (let left = 100; ; left--) {
-    try { return await check(); } catch (error) { if (left === 0) throw error; }
-    await new Promise((done) => setTimeout(done, 50));
-  }
-}
-
 test("a limit that is dragged or typed holds in all charts", () => open("fastSweep", async (page) => {
   const list = blocks.fastSweep.sweep.points.filter((p) => onlyLimited(p) && p.metrics[0] !== null);
   const kept = (least) => list.filter((p) => p.metrics[0] >= least);
@@ -446,7 +454,7 @@ test("a limit that is dragged or typed holds in all charts", () => open("fastSwe
   assert.equal(await said(), kept(140).length, "the study's constraint is the first limit");
   const grip = page.getByRole("slider", { name: "Frame rate, at least" });
   await page.locator("#trade-off").scrollIntoViewIfNeeded();
-  await page.waitForTimeout(200);
+  await rest(page);
   const box = await grip.boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await page.mouse.down();
@@ -489,8 +497,7 @@ test("the front is that of any two figures", () => open("fastSweep", async (page
 
 test("a rectangle, and a drag along an axis, keep points", () => open("fastSweep", async (page) => {
   const area = page.locator('.chart-area[aria-label^="Frame rate and power"]');
-  await area.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(200);
+  await show(page, area);
   const box = await area.boundingBox();
   await page.mouse.move(box.x + 300, box.y + 120);
   await page.mouse.down();
@@ -504,8 +511,7 @@ test("a rectangle, and a drag along an axis, keep points", () => open("fastSweep
   assert.ok(inside < blocks.fastSweep.sweep.points.filter((p) => onlyLimited(p) && p.metrics[0] >= Number(low) && p.metrics[0] <= Number(high)).length + 1);
   assert.ok(!(await page.locator("#point").isVisible()), "a rectangle is no click");
   const lines = page.locator('.chart-area[aria-label^="All parameters"]');
-  await lines.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(300);
+  await show(page, lines);
   const plot = await lines.boundingBox();
   await page.mouse.move(plot.x + 56, plot.y + 70);
   await page.mouse.down();
@@ -520,7 +526,7 @@ test("a rectangle, and a drag along an axis, keep points", () => open("fastSweep
 test("with 20 000 points a move of a limit is on the screen within 100 ms", () => open("largeSweep", async (page) => {
   const grip = page.getByRole("slider", { name: "Frame rate, at least" });
   await grip.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(300);
+  await rest(page);
   const times = [];
   const key = (name) => grip.evaluate((element, pressed) => new Promise((done) => {
     const begin = performance.now();
@@ -660,8 +666,7 @@ test("the trade-off is coloured by any figure, and shows what is around the fron
 
 test("a click on a point of the trade-off opens it", () => open("sweep", async (page) => {
   const area = page.locator('.chart-area[aria-label^="Frame rate and power"]');
-  await area.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(200);
+  await show(page, area);
   const box = await area.boundingBox();
   search: for (let y = 0.2; y < 0.8; y += 0.05) {
     for (let x = 0.2; x < 0.9; x += 0.03) {
@@ -674,21 +679,21 @@ test("a click on a point of the trade-off opens it", () => open("sweep", async (
 
 test("a cell of the map says what it is", () => open("sweep", async (page) => {
   const area = page.locator('.chart-area[aria-label*="over two parameters"]');
-  await area.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(200);
+  await show(page, area);
   const box = await area.boundingBox();
   const before = await area.locator("svg").evaluate((svg) => svg.textContent);
   await page.mouse.move(box.x + box.width / 2, box.y + 60);
   await page.mouse.move(box.x + box.width / 2 + 2, box.y + 62);
-  await page.waitForTimeout(400);
-  const after = await area.locator("svg").evaluate((svg) => svg.textContent);
-  assert.match(after.replace(before, ""), /Frame rate/);
+  await eventually(async () => {
+    const after = await area.locator("svg").evaluate((svg) => svg.textContent);
+    assert.match(after.replace(before, ""), /Frame rate/);
+  });
 }));
 
 test("the handshake is drawn from the run's changes", () => open("run", async (page) => {
   const area = page.locator("#handshakes .wave");
   await area.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(200);
+  await area.locator("svg").first().waitFor();
   const text = await area.locator("svg").first().evaluate((svg) => svg.textContent);
   for (const part of ["feature", "ready", "80000C05", "40080401", "13.250"]) assert.ok(text.includes(part), part);
   assert.match(await page.locator("#handshakes table").textContent(), /corner 5, 3/);
@@ -725,11 +730,10 @@ test("a name like markup stays text", () => open("hostile", async (page) => {
 
 test("a tooltip does not read names as markup", () => open("hostileComparison", async (page) => {
   const area = page.locator('.chart-area[aria-label^="Latency of each frame"]');
-  await area.scrollIntoViewIfNeeded();
-  await page.waitForTimeout(200);
+  await show(page, area);
   const box = await area.boundingBox();
   for (let x = 0.2; x < 0.9; x += 0.1) await page.mouse.move(box.x + box.width * x, box.y + 120);
-  await page.waitForTimeout(300);
+  await rest(page);
   assert.equal(await page.evaluate(() => window.hacked), undefined);
   assert.equal(await page.locator("img").count(), 0);
 }));
