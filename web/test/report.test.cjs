@@ -50,32 +50,35 @@ blocks.traced.extras.diagram = samples.diagram();
 blocks.notDrawn = samples.run({ frames: 1 });
 blocks.notDrawn.extras.diagram = { problem: "--diagram needs Graphviz" };
 let browser;
+let page;  // One for all: a process of its own for each costs more than what is tested.
+let problems;
+
+// A busy machine fails no test.
+const patience = 300_000;
 
 before(async () => {
   for (const [name, data] of Object.entries(blocks)) fs.writeFileSync(path.join(folder, name + ".html"), samples.page(template, data));
   browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+  page = await (await browser.newContext({ acceptDownloads: true })).newPage();
+  page.setDefaultTimeout(patience);
+  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) problems.push(message.text()); });
+  page.on("pageerror", (error) => problems.push(String(error)));
+  page.on("request", (request) => { if (!/^(file|data|blob):/.test(request.url())) problems.push("request " + request.url()); });
 });
 after(async () => {
   await browser?.close();
   fs.rmSync(folder, { recursive: true, force: true });
 });
 
-// A busy machine fails no test.
-const patience = 300_000;
-
 /** Opens a page, runs `use`, and checks that nothing went wrong meanwhile. */
-async function open(name, use, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...options });
-  const page = await context.newPage();
-  page.setDefaultTimeout(patience);
-  const problems = [];
-  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) problems.push(message.text()); });
-  page.on("pageerror", (error) => problems.push(String(error)));
-  page.on("request", (request) => { if (!/^(file|data|blob):/.test(request.url())) problems.push("request " + request.url()); });
+async function open(name, use, { viewport = { width: 1280, height: 900 }, colorScheme = "light" } = {}) {
+  await page.setViewportSize(viewport);
+  await page.emulateMedia({ colorScheme, media: null });
+  problems = [];
   await page.goto("file://" + path.join(folder, name + ".html"));
+  await page.mouse.move(0, 0);
   await use(page);
   assert.deepEqual(problems, []);
-  await context.close();
 }
 
 /** Waits until the page has seen where it is: what comes near the window is drawn in the picture after. */
@@ -120,7 +123,7 @@ for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
       assert.ok(drawn.length >= least, `${drawn.length} charts`);
       assert.deepEqual(drawn.filter((chart) => !chart.ok), []);
       // In the dark only colours are others.
-      const axe = new AxeBuilder({ page });
+      const axe = new AxeBuilder({ page }).setLegacyMode();  // without a page of its own: there are no frames
       const { violations } = await (colorScheme === "dark" ? axe.withRules(["color-contrast"]) : axe).analyze();
       assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(" | ")}`), []);
     }, { colorScheme }));
