@@ -320,7 +320,7 @@ class Session:
     numbers, s. Registers and addresses are named as `markervp map` does: "axi_gpio_0.GPIO_DATA", "ddr+0x1000", 0x41200000;
     signals as in a trace: "ps.gic.n_irq". What the platform refuses is a markervp.Error, and the run continues.
 
-    `wall_time`, s: the longest that a command may take on this computer; the run is killed then.
+    `wall_time`, s: the longest that a command may take on this computer; the run is killed then. It may be set between commands.
     """
 
     def __init__(self, program_file=None, inputs=(), set=None, output=None, options=(), wall_time=60):
@@ -331,7 +331,7 @@ class Session:
         self.ended = False  #: the program has
         self._reply = b""  # what was received and not yet read
         self._socket, theirs = socket.socketpair()
-        self._socket.settimeout(wall_time)
+        self.wall_time = wall_time
         arguments = [program(), "run", *map(str, inputs), "--quiet", "--no-pictures", "--output", str(self.output),
                      "--control", str(theirs.fileno()), *options]
         if program_file:
@@ -373,6 +373,7 @@ class Session:
 
     def _ask(self, command, **values):
         try:
+            self._socket.settimeout(self.wall_time)
             self._socket.sendall(json.dumps({"do": command, **values}).encode() + b"\n")
             while b"\n" not in self._reply:
                 more = self._socket.recv(1 << 16)
@@ -381,7 +382,7 @@ class Session:
                     raise self._failed("the run ended without an answer")
                 self._reply += more
         except socket.timeout:
-            raise self._failed(f"no answer to '{command}' within {self._socket.gettimeout():g} s") from None
+            raise self._failed(f"no answer to '{command}' within {self.wall_time:g} s") from None
         except (BrokenPipeError, ConnectionResetError):
             self._process.wait()
             raise self._failed("the run is over") from None
@@ -483,7 +484,7 @@ class Session:
             self.run("1000 s")
         self._socket.sendall(b'{"do": "finish"}\n')
         try:
-            code = self._process.wait(self._socket.gettimeout())
+            code = self._process.wait(self.wall_time)
         except subprocess.TimeoutExpired:
             raise self._failed("the run's results were not written in time") from None
         if code != 0:
