@@ -82,8 +82,8 @@ class PageNames {
   std::set<std::string> used_;
 };
 
-/// Pages for GTKWave and Surfer around each failure. The first one in time has the name that the
-/// user gave; the others have theirs from their checks.
+/// Pages for GTKWave, Surfer and VaporView around each failure. The first one in time has the name
+/// that the user gave; the others have theirs from their checks.
 void write_pages(const TraceCommandOptions& options, const trace::TraceFile& file,
                  std::vector<const trace::CheckResult*> failed, std::ostream& out) {
   std::stable_sort(failed.begin(), failed.end(),
@@ -95,6 +95,8 @@ void write_pages(const TraceCommandOptions& options, const trace::TraceFile& fil
     vp::write_file(page.string(), trace::save_file_text(save));
     const std::string commands = std::filesystem::path(page).replace_extension(".sucl").string();
     vp::write_file(commands, trace::surfer_commands(save));
+    vp::write_file(std::filesystem::path(page).replace_extension(".vaporview.json").string(),
+                   trace::vaporview_settings(save));
     if (result != failed.front()) continue;
     out << "look at it: gtkwave " << options.file << " " << page.string() << ", or surfer "
         << options.file << " --command-file " << commands << "\n";

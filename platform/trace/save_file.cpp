@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include <trace/replay.h>
 #include <trace/tools.h>
@@ -218,6 +219,29 @@ std::string surfer_commands(const SaveFile& save) {
          "\ngoto_cursor\n";
 }
 
+std::string vaporview_settings(const SaveFile& save) {
+  using Json = nlohmann::ordered_json;
+  Json groups = Json::array();
+  // Signals before the first title stand beside the groups.
+  Json* signals = &groups;
+  for (const SaveFile::Line& line : save.lines) {
+    if (line.title) {
+      groups.push_back(
+          {{"dataType", "signal-group"}, {"groupName", line.path}, {"children", Json::array()}});
+      signals = &groups.back()["children"];
+      continue;
+    }
+    const bool vector = line.kind == Kind::bits && line.width > 1;
+    Json signal{{"dataType", "netlist-variable"}, {"name", line.path}};
+    if (vector) signal["numberFormat"] = line.decimal ? "decimal" : "hexadecimal";
+    signals->push_back(std::move(signal));
+  }
+  Json settings;
+  if (save.marker_ps) settings["markerTime"] = steps_of(*save.marker_ps, save.timescale_fs);
+  settings["displayedSignals"] = std::move(groups);
+  return settings.dump(2) + "\n";
+}
+
 std::vector<SaveFile::Line> save_lines(const TraceFile& file,
                                        const std::vector<std::string>& paths) {
   std::vector<SaveFile::Line> lines;
@@ -274,6 +298,7 @@ std::vector<std::string> write_save_files(TraceFile& file, const Vocabulary& wor
   if (!page.lines.empty()) {
     put("system.gtkw", save_file_text(page));
     put("system.sucl", surfer_commands(page));
+    put("system.vaporview.json", vaporview_settings(page));
   }
 
   std::map<std::string, std::vector<std::string>> ips;

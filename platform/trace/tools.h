@@ -130,6 +130,9 @@ std::uint64_t steps_of(std::uint64_t ps, std::uint64_t timescale_fs);
 /// The same as commands for Surfer (`surfer TRACE --command-file FILE.sucl`): its state files
 /// change with every version.
 std::string surfer_commands(const SaveFile& save);
+/// The same as settings for VaporView, with a group for each title; its command "Load settings from
+/// file" reads them.
+std::string vaporview_settings(const SaveFile& save);
 
 /// Save files for what is in the trace: `system.gtkw`, one `<ip>.gtkw` for each IP with its
 /// signals, and the translate files they use (`*.flt`: functions, interrupts, directions,

@@ -109,6 +109,8 @@ BOOST_AUTO_TEST_CASE(each_check_that_fails_has_a_page_with_what_is_around_it) {
   BOOST_TEST(kit::read_file(*this / "t.vcd.failed.sucl") ==
              "divider_add Check\nvariable_add top.b.y\ndivider_add Clock\nvariable_add top.clk\n"
              "cursor_set 10\ngoto_cursor\n");
+  BOOST_TEST(kit::read_file(*this / "t.vcd.failed.vaporview.json").find("\"markerTime\": 10,") !=
+             std::string::npos);
   BOOST_TEST(kit::read_file(*this / "t.vcd.failed.late.sucl") ==
              "divider_add Check\nvariable_add top.a.x\ndivider_add Clock\nvariable_add top.clk\n"
              "divider_add Buffers\nvariable_add top.a.fill_level\n"

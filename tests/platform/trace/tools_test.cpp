@@ -4,6 +4,7 @@
 #include <marker/designs/marker/marker_design.h>
 #include <trace/tools.h>
 #include <vp/wave_writer.h>
+#include <nlohmann/json.hpp>
 
 #include "waves.h"
 
@@ -288,6 +289,29 @@ BOOST_AUTO_TEST_CASE(a_save_file_counts_as_its_trace) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_page_becomes_settings_of_vaporview) {
+  SaveFile page;
+  page.lines.resize(4);
+  page.lines[0].path = "top.alone";
+  page.lines[0].width = page.lines[3].width = 8;
+  page.lines[1].path = "Group";
+  page.lines[1].title = true;
+  page.lines[2].path = "top.bit";
+  page.lines[3].path = "top.count";
+  page.lines[3].decimal = true;
+  page.marker_ps = 1'500'000;
+  page.timescale_fs = 1'000'000;
+  BOOST_TEST(nlohmann::json::parse(vaporview_settings(page)) == nlohmann::json::parse(R"({
+    "markerTime": 1500,
+    "displayedSignals": [
+      {"dataType": "netlist-variable", "name": "top.alone", "numberFormat": "hexadecimal"},
+      {"dataType": "signal-group", "groupName": "Group", "children": [
+        {"dataType": "netlist-variable", "name": "top.bit"},
+        {"dataType": "netlist-variable", "name": "top.count", "numberFormat": "decimal"}]}]})"));
+  page.marker_ps.reset();
+  BOOST_TEST(!nlohmann::json::parse(vaporview_settings(page)).contains("markerTime"));
+}
+
 BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
   const Waves waves(
       "ps.cpu.function 32, ps.cpu.function_name string, ps.gic.active 10, "
@@ -310,9 +334,9 @@ BOOST_AUTO_TEST_CASE(save_files_name_signals_that_are_there) {
       "FFFFFFFF ?dark red?end of frame\n");
   BOOST_TEST(system.find("^1 " + (folder / "feature.flt") +
                          "\npl.corner_detection.corner_data[31:0]\n") != std::string::npos);
-  const std::vector<std::string> expected = {"corner_detection.gtkw", "cpu.gtkw",   "feature.flt",
-                                             "function.flt",          "gic.gtkw",   "interrupt.flt",
-                                             "system.gtkw",           "system.sucl"};
+  const std::vector<std::string> expected = {
+      "corner_detection.gtkw", "cpu.gtkw",    "feature.flt", "function.flt",         "gic.gtkw",
+      "interrupt.flt",         "system.gtkw", "system.sucl", "system.vaporview.json"};
   BOOST_TEST(folder.entries() == expected, boost::test_tools::per_element());
   BOOST_TEST(complaint([&] {
                TraceFile again(waves.file);
