@@ -78,6 +78,21 @@ BOOST_AUTO_TEST_CASE(what_a_module_is) {
   BOOST_TEST(handoff.ps().segments.at(1).last == 0x4120'FFFFu);
 }
 
+// Vivado 2015 names neither what an interface is nor the logical names of its pins.
+BOOST_AUTO_TEST_CASE(interfaces_without_vlnv_are_known_by_their_pins) {
+  const auto kind = [](const std::string& pins) {
+    kit::HwhText text = kit::small_handoff();
+    text.module("old_0", "me:user:old:1.0", "", "",
+                kit::element("BUSINTERFACE", {{"BUSNAME", "b"}, {"NAME", "S"}, {"TYPE", "SLAVE"}},
+                             "<PORTMAPS>" + pins + "</PORTMAPS>"));
+    return read_hwh(text.text(), "x.hwh").module("old_0")->interface("S")->kind;
+  };
+  BOOST_TEST(kind(R"(<PORTMAP PHYSICAL="s00_axi_awaddr"/><PORTMAP PHYSICAL="s00_axi_wdata"/>)") ==
+             "aximm");
+  BOOST_TEST(kind(R"(<PORTMAP PHYSICAL="S_AXIS_TVALID"/>)") == "axis");
+  BOOST_TEST(kind(R"(<PORTMAP PHYSICAL="valid"/>)") == "");
+}
+
 BOOST_AUTO_TEST_CASE(a_frequency_with_an_exponent) {
   const Handoff handoff = small();
   BOOST_TEST(*handoff.module("clk_0")->port("pixel_clk")->hz == 74'250'000.0);
