@@ -78,8 +78,7 @@ vp::Router& BlockDesign::way_of(const End& master, const std::vector<std::string
   if (port == part.masters.end()) {
     // A master in a stub asks for nothing: what it is wired to is tied, once.
     if (part.any_output) {
-      const std::string name = master.part + "_" + lower(master.port) + "_tied";
-      tied_masters_.emplace_back(name.c_str()).socket.bind(wanted->socket);
+      no_master(master.part + "_" + lower(master.port)).bind(wanted->socket);
       first = wanted;
       return *wanted;
     }
@@ -178,6 +177,7 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
   const std::vector<std::string> way = way_between(segment);
   std::vector<vp::Router*> routers{&way_of(segment.master, way)};
   for (std::size_t i = 1; i < way.size(); ++i) routers.push_back(&router(way[i]));
+  entered_.insert(routers.begin(), routers.end());
   const bool absolute = is_absolute(segment.slave);
   const std::uint64_t base = base_of(segment);
   if (absolute) {
@@ -218,11 +218,17 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
   }
 }
 
-// A master without a segment is answered with an error wherever it goes; a slave without one has a
-// master that asks for nothing.
+/// What nothing comes to has a master that asks for nothing.
+RegionSocket& BlockDesign::no_master(const std::string& name) {
+  return tied_masters_.emplace_back((name + "_tied").c_str()).socket;
+}
+
+// A master without a segment is answered with an error wherever it goes.
 void BlockDesign::close_open_ports() {
   for (auto& [name, part] : placed_) {
     if (name == ps_) continue;
+    if (is_bus(name) && entered_.count(&router(name)) == 0)
+      no_master(name).bind(router(name).socket);
     for (auto& [bus, port] : part.masters) {
       if (first_of_.count(name + "." + bus) == 0)
         port.bind(direct_.emplace_back((name + "_" + lower(bus) + "_open").c_str()));
@@ -237,8 +243,7 @@ void BlockDesign::close_open_ports() {
       if (part.open_slave) {
         part.open_slave(bus);
       } else {
-        const std::string master = name + "_" + lower(bus) + "_tied";
-        port.bind(tied_masters_.emplace_back(master.c_str()).socket);
+        port.bind(no_master(name + "_" + lower(bus)));
       }
     }
   }

@@ -83,6 +83,7 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   bool is_seen_elsewhere(const AddressSegment& segment);
   vp::Router& windows_of(const AddressSegment& segment);
   SlavePort slave_of(const AddressSegment& segment);
+  RegionSocket& no_master(const std::string& name);
   void close_open_ports();
   bool is_bus(const std::string& part) const;
   [[noreturn]] void refuse(const End& end, const std::string& problem,
@@ -104,8 +105,9 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   std::deque<vp::StreamSource> silent_;
   std::deque<vp::StreamSink> blocked_;
   std::deque<vp::Router> direct_;        ///< of masters that meet no interconnect
-  std::deque<vp::MmLink> tied_masters_;  ///< in the place of masters in stubs
+  std::deque<vp::MmLink> tied_masters_;  ///< in the place of masters that ask for nothing
   std::map<std::string, vp::Router*> direct_of_;
+  std::set<const vp::Router*> entered_;              ///< those that a master comes to
   std::map<std::string, vp::Router*> windows_of_;    ///< of slaves that are seen in several places
   std::map<std::string, vp::Router*> first_of_;      ///< where the way of a master begins
   std::map<std::string, xilinx::MemoryPath> paths_;  ///< by the port at the end

@@ -73,11 +73,27 @@ bool is_noise(const std::string& name) {
   return names.count(name) != 0 || ends_with("_BASEADDR") || ends_with("_HIGHADDR");
 }
 
+/// The frequencies of clocks, by net, where their drivers may say nothing: what those that they
+/// drive are said to have, or what a clock wizard behind them was made for.
+std::map<std::string, double> clock_wishes(const Handoff& handoff) {
+  std::map<std::string, double> wishes;
+  for (const Module& module : handoff.modules) {
+    for (const Port& port : module.ports) {
+      if (port.direction != 'I' || port.signal.empty()) continue;
+      if (port.kind == "clk" && port.hz) wishes.emplace(port.signal, *port.hz);
+      if (module.ip() != "clk_wiz" || port.name != "clk_in1") continue;
+      const auto mhz = vp::Decimal::parse(parameter(module.parameters, "PRIM_IN_FREQ"));
+      if (mhz) wishes.emplace(port.signal, mhz->to_double() * hz_per_mhz);
+    }
+  }
+  return wishes;
+}
+
 /// Writes the sections of design.yaml one after the other.
 class Writer {
  public:
   Writer(const Handoff& handoff, const handoff::RtlFinder& rtl)
-      : handoff_(handoff), rtl_(rtl), nets_(handoff) {}
+      : handoff_(handoff), rtl_(rtl), nets_(handoff), wishes_(clock_wishes(handoff)) {}
 
   ImportedDesign write() {
     line("# Design '" + handoff_.name + "' of " + handoff_.file + ", Vivado " + handoff_.tool +
@@ -289,15 +305,9 @@ class Writer {
     if (!lines.empty()) result_.text += "    clocks:\n" + lines;
   }
 
-  /// Of a clock whose driver says nothing: what a clock wizard behind it was made for.
-  std::optional<double> wished_hz(const Port& clock) const {
-    for (const Module& module : handoff_.modules) {
-      if (module.ip() != "clk_wiz") continue;
-      const Port* input = module.port("clk_in1");
-      const auto mhz = vp::Decimal::parse(parameter(module.parameters, "PRIM_IN_FREQ"));
-      if (input && mhz && input->signal == clock.signal) return mhz->to_double() * hz_per_mhz;
-    }
-    return std::nullopt;
+  std::optional<double> wished_hz(const Port& driver) const {
+    const auto wish = wishes_.find(driver.signal);
+    return wish == wishes_.end() ? std::nullopt : std::optional<double>(wish->second);
   }
 
   /// Inputs that are driven, but those of buses.
@@ -410,8 +420,9 @@ class Writer {
     std::vector<std::string> lines;
     for (const Port& port : handoff_.ports) {
       if (port.direction != 'I' || used_pins_.count(port.name) == 0) continue;
-      if (port.kind == "clk") {
-        const double hz = port.hz.value_or(1e8);
+      const std::optional<double> wished = wished_hz(port);
+      if (port.kind == "clk" || wished) {
+        const double hz = port.hz ? *port.hz : wished.value_or(1e8);
         lines.push_back("  " + yaml(port.name) + ": {clock: " + hertz(hz) + "}");
         result_.notes.push_back("the clock at pin " + port.name + " is " + hertz(hz) +
                                 " as typed in Vivado, where 100 MHz is the default: correct it "
@@ -431,6 +442,7 @@ class Writer {
   const Handoff& handoff_;
   const handoff::RtlFinder& rtl_;
   Netlist nets_;
+  std::map<std::string, double> wishes_;
   ImportedDesign result_;
   std::set<std::string> used_pins_;
   std::set<std::string> missing_;  ///< outputs that no model has

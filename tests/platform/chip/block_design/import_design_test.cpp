@@ -11,18 +11,13 @@
 #include "small_handoff.h"
 
 using namespace platform::block_design;
+using kit::replaced;
 using platform::handoff::read_hwh;
 
 namespace {
 
 ImportedDesign imported(const kit::HwhText& text) {
   return import_design(read_hwh(text.text(), "small.hwh"));
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  BOOST_TEST_REQUIRE(at != std::string::npos, what);
-  return text.replace(at, what.size(), by);
 }
 
 bool has(const std::string& text, const std::string& what) {
@@ -116,6 +111,18 @@ BOOST_AUTO_TEST_CASE(a_clock_of_unknown_frequency_is_what_its_wizard_was_made_fo
   text.module("clk_1", "xilinx.com:ip:clk_wiz:6.0", kit::parameter("PRIM_IN_FREQ", "10.000"),
               kit::pin("I", "clk_in1", "mux_clk"));
   BOOST_TEST(has(imported(text).text, "    clocks:\n      clk_out: 10 MHz\n"));
+}
+
+// A pin without a type is a clock if what it drives is one.
+BOOST_AUTO_TEST_CASE(a_pin_that_drives_a_clock_is_one) {
+  kit::HwhText text = kit::small_handoff();
+  text.external(kit::pin("I", "sysclk", "sysclk") + kit::pin("I", "level", "level"));
+  text.module("other", "me:user:other:1.0", "",
+              kit::pin("I", "clk", "sysclk", 1, R"(SIGIS="clk" CLKFREQUENCY="125000000")") +
+                  kit::pin("I", "on", "level"));
+  const std::string design = imported(text).text;
+  BOOST_TEST(has(design, "  sysclk: {clock: 125 MHz}\n"));
+  BOOST_TEST(has(design, "  level: {level: 0}\n"));
 }
 
 BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_is_named) {

@@ -146,9 +146,14 @@ BOOST_AUTO_TEST_CASE(both_channels_of_a_dma_leave_as_one_master) {
   BOOST_TEST(unsigned{chip.zynq->ps.ddr.at(to, bytes)[5]} == 0x5Au);
 }
 
-// The address editor lets a slave be without one.
+// The address editor lets a slave be without one, and a master without all of them.
 BOOST_AUTO_TEST_CASE(a_slave_without_an_address_is_out_of_reach) {
-  BuiltDesign chip(replaced(shelf_design(), "    axi_iic_0.S_AXI: [0x41600000, 64 KiB]\n", ""));
+  const std::string unseen =
+      part("mem", "smartconnect:1.0", "", "aclk: ps.FCLK_CLK0", "S00_AXI: axi_cdma_0.M_AXI");
+  std::string text = replaced(shelf_design(), "addresses:\n", unseen + "addresses:\n");
+  text = replaced(text, "S_AXI_HP0: axi_cdma_0.M_AXI", "S_AXI_HP0: mem.M00_AXI");
+  text = replaced(text, "  axi_cdma_0.M_AXI:\n    ps.S_AXI_HP0: [0x0, 512 MiB]\n", "");
+  BuiltDesign chip(replaced(text, "    axi_iic_0.S_AXI: [0x41600000, 64 KiB]\n", ""));
   BuiltDesign::pass_us(1);
   BOOST_TEST(chip.part<xilinx::AxiIic>("axi_iic_0").gpo.get() == 5u);
   for (const auto& device : platform::hardware_map(*chip.zynq).devices)
