@@ -5,6 +5,7 @@
 #include "executable.h"
 #include "small_handoff.h"
 
+using kit::replaced;
 using namespace integration;
 
 namespace {
@@ -30,12 +31,6 @@ struct Imported : Workplace {
 
 bool has(const std::string& text, const std::string& what) {
   return text.find(what) != std::string::npos;
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  BOOST_TEST_REQUIRE(at != std::string::npos, what);
-  return text.replace(at, what.size(), by);
 }
 
 }  // namespace

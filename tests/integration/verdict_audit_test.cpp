@@ -32,7 +32,7 @@ parameters:
   pl.blob_detection.minimum_side: {start: 4 px, stop: 60 px}
   pl.feature_packaging.buffer_depth: {start: 2, stop: 300}
   pl.axi_threshold_bridge.fifo_depth: {start: 1, stop: 128}
-  pl.axi_dma_1.burst_beats: [2, 8, 16, 32]
+  pl.axi_dma_1.s2mm_burst_beats: [2, 8, 16, 32]
   pl.burst_words: [16, 32]
   profile: [thesis, a9-O0, a9-O2]
   sw.margin: {start: 0 px, stop: 12 px}

@@ -40,8 +40,12 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
                "build option Allow Unaligned Transfers, read channel (PG021)"),
       s2mm_dre("s2mm_dre", build.s2mm_dre, vp::Source::published,
                "build option Allow Unaligned Transfers, write channel (PG021)"),
-      burst_beats("burst_beats", build.burst_beats, vp::Unit::none, {2, 256}, vp::Source::published,
-                  "largest burst in words (thesis 4.4.2: 32)"),
+      mm2s_burst_beats("mm2s_burst_beats", build.mm2s_burst_beats, vp::Unit::none, {2, 256},
+                       vp::Source::published,
+                       "largest burst of the read channel, in beats (PG021; thesis 4.4.2: 32)"),
+      s2mm_burst_beats("s2mm_burst_beats", build.s2mm_burst_beats, vp::Unit::none, {2, 256},
+                       vp::Source::published,
+                       "largest burst of the write channel, in beats (PG021; thesis 4.4.2: 32)"),
       s_axi_lite("s_axi_lite", registers, axi_lite_options(address_bits), &aclk.scheduler()),
       mm2s_widths(build.mm2s),
       s2mm_widths(build.s2mm) {
@@ -49,12 +53,8 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
     throw vp::InputError(std::string(this->name()) +
                          ": include_mm2s and include_s2mm are both false: build one");
   }
-  if ((burst_beats & (burst_beats - 1)) != 0) {
-    throw vp::InputError(std::string(burst_beats.name()) + " = " + std::to_string(burst_beats) +
-                         ": must be a power of two from 2 to 256");
-  }
-  check("mm2s", mm2s_widths);
-  check("s2mm", s2mm_widths);
+  check("mm2s", mm2s_burst_beats, mm2s_widths);
+  check("s2mm", s2mm_burst_beats, s2mm_widths);
   build_channels();
   build_scatter_gather();
   s_axi_lite.before_access([this] {
@@ -63,7 +63,12 @@ AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild&
   });
 }
 
-void AxiDma::check(const std::string& channel, const DmaWidths& widths) const {
+void AxiDma::check(const std::string& channel, std::uint32_t burst_beats,
+                   const DmaWidths& widths) const {
+  if ((burst_beats & (burst_beats - 1)) != 0) {
+    throw vp::InputError(std::string(name()) + "." + channel + "_burst_beats = " +
+                         std::to_string(burst_beats) + ": must be a power of two from 2 to 256");
+  }
   const auto fits = [](std::uint32_t bytes) {
     return bytes >= word_bytes && bytes <= vp::most_stream_bytes && (bytes & (bytes - 1)) == 0;
   };
@@ -106,7 +111,7 @@ std::uint64_t AxiDma::beats() const {
 void AxiDma::build_channels() {
   DmaChannel::Core& core = *this;
   if (include_mm2s) {
-    mm2s_ = std::make_unique<Mm2sChannel>(core, s_axi_lite, *this, burst_beats, mm2s_widths);
+    mm2s_ = std::make_unique<Mm2sChannel>(core, s_axi_lite, *this, mm2s_burst_beats, mm2s_widths);
     mm2s_->configure(length_width, mm2s_dre ? 1 : mm2s_widths.memory_bytes);
     interrupts_.push_back({mm2s_.get(), &mm2s_introut});
   } else {
@@ -117,7 +122,7 @@ void AxiDma::build_channels() {
     }
   }
   if (include_s2mm) {
-    s2mm_ = std::make_unique<S2mmChannel>(core, s_axi_lite, *this, burst_beats, s2mm_widths);
+    s2mm_ = std::make_unique<S2mmChannel>(core, s_axi_lite, *this, s2mm_burst_beats, s2mm_widths);
     s2mm_->configure(length_width, s2mm_dre ? 1 : s2mm_widths.memory_bytes);
     interrupts_.push_back({s2mm_.get(), &s2mm_introut});
   } else {

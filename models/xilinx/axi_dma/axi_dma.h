@@ -29,7 +29,8 @@ struct AxiDmaBuild {
   std::uint32_t length_width = 14;
   bool mm2s_dre = false;  ///< data realignment engine: unaligned addresses
   bool s2mm_dre = false;
-  std::uint32_t burst_beats = 32;
+  std::uint32_t mm2s_burst_beats = 32;
+  std::uint32_t s2mm_burst_beats = 32;
   DmaWidths mm2s, s2mm;
 };
 
@@ -51,7 +52,8 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   vp::Parameter<std::uint32_t> length_width;
   vp::Parameter<bool> mm2s_dre;
   vp::Parameter<bool> s2mm_dre;
-  vp::Parameter<std::uint32_t> burst_beats;
+  vp::Parameter<std::uint32_t> mm2s_burst_beats;
+  vp::Parameter<std::uint32_t> s2mm_burst_beats;
   DmaTiming latencies;
 
   vp::In<bool> axi_resetn{"axi_resetn"};  ///< may be left open
@@ -108,7 +110,7 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   void check_buffer(const std::string& who, std::uint32_t address,
                     std::uint32_t bytes) const override;
 
-  void check(const std::string& channel, const DmaWidths& widths) const;
+  void check(const std::string& channel, std::uint32_t burst_beats, const DmaWidths& widths) const;
   void build_channels();
   void build_scatter_gather();
   void drive(Interrupt& interrupt);

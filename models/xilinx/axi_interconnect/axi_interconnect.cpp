@@ -10,8 +10,8 @@ namespace xilinx {
 
 namespace {
 
-// Bytes: an AXI burst never crosses such a boundary.
-constexpr std::uint64_t smallest_segment = 4096;
+// Bytes: Vivado's address editor offers no less; 1 KiB is in public designs.
+constexpr std::uint64_t smallest_segment = 128;
 
 }  // namespace
 
@@ -63,7 +63,7 @@ tlm_utils::simple_initiator_socket<vp::MmLink>& AxiInterconnect::map(const std::
     throw vp::InputError(
         std::string(name()) + ": the segment of " + region_name + " at " + vp::hex(base) +
         ", size " + vp::hex(size) +
-        ": the size must be a power of two of at least 4 KiB, the base a multiple of it");
+        ": the size must be a power of two of at least 128 bytes, the base a multiple of it");
   }
   return Router::map(region_name, base, size, addresses);
 }

@@ -16,7 +16,7 @@ namespace xilinx {
 class AxiDma;
 
 /// AXI Interconnect v2.1 (PG059): the router with the address rules of its crossbar. A segment is a
-/// power of two of at least 4 KiB and starts at a multiple of its size.
+/// power of two of at least 128 bytes and starts at a multiple of its size.
 class AxiInterconnect : public vp::Router, public vp::Ip {
  public:
   AxiInterconnect(sc_core::sc_module_name name, const vp::Clock& aclk);

@@ -78,8 +78,7 @@ vp::Router& BlockDesign::way_of(const End& master, const std::vector<std::string
   if (port == part.masters.end()) {
     // A master in a stub asks for nothing: what it is wired to is tied, once.
     if (part.any_output) {
-      const std::string name = master.part + "_" + lower(master.port) + "_tied";
-      tied_masters_.emplace_back(name.c_str()).socket.bind(wanted->socket);
+      no_master(master.part + "_" + lower(master.port)).bind(wanted->socket);
       first = wanted;
       return *wanted;
     }
@@ -103,8 +102,8 @@ SlavePort BlockDesign::slave_of(const AddressSegment& segment) {
 }
 
 /// Where software finds a slave is a property of it.
-std::uint64_t BlockDesign::base_of(const AddressSegment& segment, SlavePort& slave) {
-  if (slave.absolute || segment.master.part != ps_) return segment.base;
+std::uint64_t BlockDesign::base_of(const AddressSegment& segment) {
+  if (is_absolute(segment.slave) || segment.master.part != ps_) return segment.base;
   const std::string number = number_of(segment);
   auto& base = bases_[segment.slave.text() + number];
   if (!base) {
@@ -121,6 +120,37 @@ std::uint64_t BlockDesign::base_of(const AddressSegment& segment, SlavePort& sla
         vp::Source::decision, "where software finds it, " + vp::hex(segment.size) + " bytes");
   }
   return base->get();
+}
+
+/// Whether it sees the addresses of its master: a port of the PS.
+bool BlockDesign::is_absolute(const End& slave) {
+  const auto& slaves = placed(slave.part).slaves;
+  const auto port = slaves.find(slave.port);
+  return port != slaves.end() && port->second.absolute;
+}
+
+/// Whether a slave has a second place, for this master or for another one.
+bool BlockDesign::is_seen_elsewhere(const AddressSegment& segment) {
+  return !is_absolute(segment.slave) &&
+         std::any_of(design_.addresses.begin(), design_.addresses.end(),
+                     [&](const AddressSegment& other) {
+                       return other.slave.text() == segment.slave.text() &&
+                              other.base != segment.base && asks(other);
+                     });
+}
+
+/// Where the places of a slave come together: it has one bus itself.
+vp::Router& BlockDesign::windows_of(const AddressSegment& segment) {
+  vp::Router*& windows = windows_of_[segment.slave.text()];
+  if (windows) return *windows;
+  const std::string name = segment.slave.part + "_" + lower(segment.slave.port) + "_windows";
+  windows = &direct_.emplace_back(name.c_str());
+  std::uint64_t size = 0;
+  for (const AddressSegment& other : design_.addresses)
+    if (other.slave.text() == segment.slave.text()) size = std::max(size, other.size);
+  slave_of(segment).bind(
+      windows->map(segment.slave.part, 0, size, vp::Router::Addresses::relative));
+  return *windows;
 }
 
 /// Of a slave that its master sees in several places: "", "_1", "_2" …
@@ -147,9 +177,10 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
   const std::vector<std::string> way = way_between(segment);
   std::vector<vp::Router*> routers{&way_of(segment.master, way)};
   for (std::size_t i = 1; i < way.size(); ++i) routers.push_back(&router(way[i]));
-  SlavePort slave = slave_of(segment);
-  const std::uint64_t base = base_of(segment, slave);
-  if (slave.absolute) {
+  entered_.insert(routers.begin(), routers.end());
+  const bool absolute = is_absolute(segment.slave);
+  const std::uint64_t base = base_of(segment);
+  if (absolute) {
     auto& master = placed(segment.master.part).masters;
     const auto port = master.find(segment.master.port);
     if (port != master.end() && port->second.share)
@@ -166,19 +197,18 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
   using Addresses = vp::Router::Addresses;
   for (std::size_t i = 0; i < routers.size(); ++i) {
     const bool last = i + 1 == routers.size();
-    const auto [known, is_new] =
-        mapped_.emplace(std::string(routers[i]->name()) + "/" + name, base);
-    if (!is_new) {
-      if (known->second == base) continue;
-      refuse(segment.slave, "is seen at " + vp::hex(known->second) + " and at " + vp::hex(base) +
-                                " through one bus: give both masters the same address");
-    }
+    std::set<std::uint64_t>& bases = mapped_[std::string(routers[i]->name()) + "/" + name];
+    if (!bases.insert(base).second) continue;
+    // Masters of one bus may see a slave in two places: the bus has a range for each.
+    const std::string region = bases.size() == 1 ? name : name + "_" + lower(vp::hex(base));
     try {
       RegionSocket& socket =
-          routers[i]->map(name, base, segment.size,
-                          last && !slave.absolute ? Addresses::relative : Addresses::absolute);
-      if (last) {
-        slave.bind(socket);
+          routers[i]->map(region, base, segment.size,
+                          last && !absolute ? Addresses::relative : Addresses::absolute);
+      if (last && is_seen_elsewhere(segment)) {
+        socket.bind(windows_of(segment).socket);
+      } else if (last) {
+        slave_of(segment).bind(socket);
       } else {
         socket.bind(routers[i + 1]->socket);
       }
@@ -188,10 +218,17 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
   }
 }
 
+/// What nothing comes to has a master that asks for nothing.
+RegionSocket& BlockDesign::no_master(const std::string& name) {
+  return tied_masters_.emplace_back((name + "_tied").c_str()).socket;
+}
+
 // A master without a segment is answered with an error wherever it goes.
 void BlockDesign::close_open_ports() {
   for (auto& [name, part] : placed_) {
     if (name == ps_) continue;
+    if (is_bus(name) && entered_.count(&router(name)) == 0)
+      no_master(name).bind(router(name).socket);
     for (auto& [bus, port] : part.masters) {
       if (first_of_.count(name + "." + bus) == 0)
         port.bind(direct_.emplace_back((name + "_" + lower(bus) + "_open").c_str()));
@@ -202,7 +239,12 @@ void BlockDesign::close_open_ports() {
                       [&name = name, &bus = bus](const AddressSegment& segment) {
                         return segment.slave.part == name && segment.slave.port == bus;
                       });
-      if (!is_seen && part.open_slave) part.open_slave(bus);
+      if (is_seen) continue;
+      if (part.open_slave) {
+        part.open_slave(bus);
+      } else {
+        port.bind(no_master(name + "_" + lower(bus)));
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <vp/error.h>
 #include <vp/ip.h>
+#include <vp/report.h>
 #include <vp/text.h>
 #include <xilinx/axi_uartlite/axi_uartlite.h>
 #include <xilinx/register_stub/register_stub.h>
@@ -37,6 +38,15 @@ BlockDesign::BlockDesign(sc_core::sc_module_name name, PlPorts& ports, const Des
   for (const PlacedPart& part : design_.parts) {
     if (vp::split(part.vlnv, ':').at(2) == "processing_system7") ps_ = part.name;
   }
+  try {
+    build();
+  } catch (...) {
+    take_apart();  // no destructor runs
+    throw;
+  }
+}
+
+void BlockDesign::build() {
   place_all();
   for (const PlacedPart& part : design_.parts) join_pins(part);
   join_serial_lines();
@@ -64,8 +74,12 @@ bool BlockDesign::report(const Publication& publication, facts::UnitReport& unit
   return true;
 }
 
-// What is clocked goes before its clock.
 BlockDesign::~BlockDesign() {
+  take_apart();
+}
+
+// What is clocked goes before its clock.
+void BlockDesign::take_apart() {
   blocked_.clear();
   silent_.clear();
   adapters_.clear();
@@ -162,22 +176,35 @@ vp::Clock* BlockDesign::clock_of(const End& source) {
   return found == driver.clocks.end() ? nullptr : found->second;
 }
 
-// What the platform does not model of the PS drives 0.
+// What the platform does not model of the PS drives 0, and of other IP its idle level.
 vp::SignalBase& BlockDesign::signal_of(const End& source) {
   if (source.part == "external") return external_.at(source.port)->pin;
   Placed& driver = placed(source.part);
   const auto found = driver.outputs.find(source.port);
   if (found != driver.outputs.end()) return *found->second;
   if (driver.any_output) return *driver.any_output(source.port);
-  std::vector<std::string> names;
-  for (const auto& [name, signal] : driver.outputs) names.push_back(name);
-  if (source.part != ps_ && driver.object) refuse(source, "is no output of " + source.part, names);
-  auto& tied = tied_[source.text()];
-  if (!tied) {
-    std::string name = "tied_" + source.part + "_" + source.port;
-    tied = std::make_unique<vp::Signal<std::uint64_t>>(name.c_str(), 64u);
+  const IpRule* rule = design_.part(source.part)->rule();
+  if (source.part != ps_ && (!rule || !lacks_output(*rule, source.port))) {
+    std::vector<std::string> names;
+    for (const auto& [name, signal] : driver.outputs) names.push_back(name);
+    refuse(source, "is no output of " + source.part, names);
   }
+  auto& tied = tied_[source.text()];
+  if (!tied) tied = tie(source);
   return *tied;
+}
+
+std::unique_ptr<vp::Signal<std::uint64_t>> BlockDesign::tie(const End& source) {
+  const std::string name = "tied_" + source.part + "_" + source.port;
+  auto tied = std::make_unique<vp::Signal<std::uint64_t>>(name.c_str(), 64u);
+  if (source.part == ps_) return tied;
+  const bool high = idles_high(source.port);
+  *tied = high ? 1 : 0;
+  lacking_.push_back(source.text());
+  vp::warn(*this, "/markervp/block_design/output",
+           "'" + source.text() + "' is not modelled: it stays " + (high ? "1" : "0") +
+               ", and verdicts that rest on it are unknown");
+  return tied;
 }
 
 void BlockDesign::join_pins(const PlacedPart& part) {
@@ -290,7 +317,7 @@ void BlockDesign::close_open_streams() {
 }
 
 std::vector<std::string> BlockDesign::used_stubs() const {
-  std::vector<std::string> names;
+  std::vector<std::string> names = lacking_;
   for (const auto* stub : vp::all_below<xilinx::RegisterStub>(*this))
     if (stub->used()) names.emplace_back(stub->basename());
   return names;

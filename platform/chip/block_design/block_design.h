@@ -3,6 +3,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -54,11 +55,14 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
  private:
   struct Way;
 
+  void build();
+  void take_apart();
   void place_all();
   Placed& placed(const std::string& name);
   Placed place_processing_system(const PlacedPart& part);
   vp::Clock* clock_of(const End& source);
   vp::SignalBase& signal_of(const End& source);
+  std::unique_ptr<vp::Signal<std::uint64_t>> tie(const End& source);
   void join_pins(const PlacedPart& part);
   void join_serial_lines();
   void join_streams();
@@ -74,8 +78,12 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   vp::Router& router(const std::string& name);
   vp::Router& way_of(const End& master, const std::vector<std::string>& way);
   std::string number_of(const AddressSegment& segment) const;
-  std::uint64_t base_of(const AddressSegment& segment, SlavePort& slave);
+  std::uint64_t base_of(const AddressSegment& segment);
+  bool is_absolute(const End& slave);
+  bool is_seen_elsewhere(const AddressSegment& segment);
+  vp::Router& windows_of(const AddressSegment& segment);
   SlavePort slave_of(const AddressSegment& segment);
+  RegionSocket& no_master(const std::string& name);
   void close_open_ports();
   bool is_bus(const std::string& part) const;
   [[noreturn]] void refuse(const End& end, const std::string& problem,
@@ -91,18 +99,21 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   std::vector<std::string> order_;  ///< in which parts were placed: clocks before what they clock
   std::vector<std::string> being_placed_;
   std::vector<std::unique_ptr<sc_core::sc_module>> adapters_;
-  std::map<std::string, std::unique_ptr<vp::Signal<std::uint64_t>>> tied_;  ///< to 0
+  std::map<std::string, std::unique_ptr<vp::Signal<std::uint64_t>>> tied_;  ///< to a level
+  std::vector<std::string> lacking_;  ///< outputs that something reads and no model has
   std::deque<vp::AxiStream> streams_;
   std::deque<vp::StreamSource> silent_;
   std::deque<vp::StreamSink> blocked_;
   std::deque<vp::Router> direct_;        ///< of masters that meet no interconnect
-  std::deque<vp::MmLink> tied_masters_;  ///< in the place of masters in stubs
+  std::deque<vp::MmLink> tied_masters_;  ///< in the place of masters that ask for nothing
   std::map<std::string, vp::Router*> direct_of_;
+  std::set<const vp::Router*> entered_;              ///< those that a master comes to
+  std::map<std::string, vp::Router*> windows_of_;    ///< of slaves that are seen in several places
   std::map<std::string, vp::Router*> first_of_;      ///< where the way of a master begins
   std::map<std::string, xilinx::MemoryPath> paths_;  ///< by the port at the end
   std::map<std::string, std::unique_ptr<vp::Parameter<std::uint64_t>>> bases_;
   std::map<std::string, bool> streams_joined_;
-  std::map<std::string, std::uint64_t> mapped_;  ///< base of a slave at a router, once
+  std::map<std::string, std::set<std::uint64_t>> mapped_;  ///< bases of a slave at a router
 };
 
 /// The design of a YAML file, ready to be built. Throws vp::InputError.

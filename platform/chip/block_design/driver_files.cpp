@@ -32,8 +32,14 @@ class Tables {
  public:
   Tables(const OwnDriver& driver, const Handoff& handoff, const std::string& known)
       : driver_(driver), known_(known) {
-    for (const Module& module : handoff.modules)
-      if (driver.drives(module.ip())) instances_.push_back(&module);
+    // What a processor in the PL alone sees has no names here, as in the vendor's tools.
+    const auto& segments = handoff.ps().segments;
+    for (const Module& module : handoff.modules) {
+      const bool is_seen = std::any_of(
+          segments.begin(), segments.end(),
+          [&](const handoff::Segment& segment) { return segment.instance == module.instance; });
+      if (is_seen && driver.drives(module.ip())) instances_.push_back(&module);
+    }
   }
 
   bool empty() const { return instances_.empty(); }

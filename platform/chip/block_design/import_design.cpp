@@ -29,6 +29,8 @@ using handoff::Port;
 constexpr double hz_per_mhz = 1e6;
 /// Vivado writes 666.666687 MHz for 666.666667: it computes with single precision.
 constexpr double cpu_rounding_hz = 100;
+/// `ps.ddr.dma_base` where nothing is said.
+constexpr std::uint64_t usual_dma_base = 0x1000'0000;
 
 /// A word as YAML has it: in quotes where it could be read as something else.
 std::string yaml(const std::string& word) {
@@ -71,11 +73,27 @@ bool is_noise(const std::string& name) {
   return names.count(name) != 0 || ends_with("_BASEADDR") || ends_with("_HIGHADDR");
 }
 
+/// The frequencies of clocks, by net, where their drivers may say nothing: what those that they
+/// drive are said to have, or what a clock wizard behind them was made for.
+std::map<std::string, double> clock_wishes(const Handoff& handoff) {
+  std::map<std::string, double> wishes;
+  for (const Module& module : handoff.modules) {
+    for (const Port& port : module.ports) {
+      if (port.direction != 'I' || port.signal.empty()) continue;
+      if (port.kind == "clk" && port.hz) wishes.emplace(port.signal, *port.hz);
+      if (module.ip() != "clk_wiz" || port.name != "clk_in1") continue;
+      const auto mhz = vp::Decimal::parse(parameter(module.parameters, "PRIM_IN_FREQ"));
+      if (mhz) wishes.emplace(port.signal, mhz->to_double() * hz_per_mhz);
+    }
+  }
+  return wishes;
+}
+
 /// Writes the sections of design.yaml one after the other.
 class Writer {
  public:
   Writer(const Handoff& handoff, const handoff::RtlFinder& rtl)
-      : handoff_(handoff), rtl_(rtl), nets_(handoff) {}
+      : handoff_(handoff), rtl_(rtl), nets_(handoff), wishes_(clock_wishes(handoff)) {}
 
   ImportedDesign write() {
     line("# Design '" + handoff_.name + "' of " + handoff_.file + ", Vivado " + handoff_.tool +
@@ -136,6 +154,9 @@ class Writer {
     if (whole && *whole >= 2 * mib) {
       setting("ps.ddr.size",
               vp::format_quantity(vp::Decimal(*whole + 1 - mib, 0), vp::Unit::bytes));
+      // The upper half is for buffers of Linux; the platform's default is that of 512 MiB.
+      if (*whole < usual_dma_base)
+        setting("ps.ddr.dma_base", vp::hex(static_cast<std::uint64_t>(*whole + 1) / 2));
     }
     if (ps("PCW_UIPARAM_DDR_BUS_WIDTH").rfind("16", 0) == 0) setting("power.ddr.width", "16");
     setting("ps.ethernet", wishes.ethernet ? "true" : "false");
@@ -203,6 +224,7 @@ class Writer {
                       module.instance};
     if (rule) {
       part.why = misfit(*rule, module);
+      if (part.why.empty()) part.why = driven_board_input(*rule, module);
       if (!part.why.empty()) part.kind = Kind::stub;
     } else {
       look_for_rtl(module, part);
@@ -213,7 +235,7 @@ class Writer {
     if (part.kind == Kind::rtl) line("    rtl: build/" + part.target + ".so");
     write_parameters(module, part.kind == Kind::stub ? nullptr : rule);
     if (part.kind == Kind::stub) write_clocks(module);
-    write_pins(module);
+    write_pins(module, part.kind == Kind::stub);
     write_buses(module);
     result_.parts.push_back(std::move(part));
   }
@@ -241,6 +263,20 @@ class Writer {
     return {};
   }
 
+  /// Why the model cannot take what drives its pins; "" if it can.
+  std::string driven_board_input(const IpRule& rule, const Module& module) const {
+    for (const std::string& pin : board_inputs(rule.ip)) {
+      const Port* port = module.port(pin);
+      const auto source = port ? nets_.driver(*port) : std::nullopt;
+      if (!source || !source->module ||
+          may_drive_board_input(rule.ip, source->module->vlnv, source->port->name))
+        continue;
+      return "its pin " + pin + " is driven by " + source->module->instance + "." +
+             source->port->name + ", and the model takes devices of the board only";
+    }
+    return {};
+  }
+
   /// Of the shelf's IP those that matter and are not as usual; of the owner's all.
   void write_parameters(const Module& module, const IpRule* rule) {
     std::vector<std::pair<std::string, std::string>> list;
@@ -262,14 +298,20 @@ class Writer {
   void write_clocks(const Module& module) {
     std::string lines;
     for (const Port& port : module.ports) {
-      if (port.direction == 'O' && port.kind == "clk" && port.hz && !port.signal.empty())
-        lines += "      " + yaml(port.name) + ": " + hertz(*port.hz) + "\n";
+      if (port.direction != 'O' || port.signal.empty()) continue;
+      const std::optional<double> hz = port.kind == "clk" && port.hz ? port.hz : wished_hz(port);
+      if (hz) lines += "      " + yaml(port.name) + ": " + hertz(*hz) + "\n";
     }
     if (!lines.empty()) result_.text += "    clocks:\n" + lines;
   }
 
+  std::optional<double> wished_hz(const Port& driver) const {
+    const auto wish = wishes_.find(driver.signal);
+    return wish == wishes_.end() ? std::nullopt : std::optional<double>(wish->second);
+  }
+
   /// Inputs that are driven, but those of buses.
-  void write_pins(const Module& module) {
+  void write_pins(const Module& module, bool is_stub) {
     std::set<std::string> of_buses;
     for (const BusInterface& bus : module.interfaces) {
       if (!is_bus(bus) && bus.kind != "ddrx" && bus.kind != "bram") continue;
@@ -284,6 +326,7 @@ class Writer {
       const auto source = nets_.driver(port);
       if (!source) continue;
       const std::string text = pin_text(*source);
+      if (!is_stub) note_missing(*source);
       if (is_interconnect) {
         if (port.kind != "clk") continue;
         if (main_clock.empty()) {
@@ -296,6 +339,17 @@ class Writer {
       first = false;
       line("      " + yaml(port.name) + ": " + yaml(text));
     }
+  }
+
+  void note_missing(const handoff::Pin& source) {
+    const IpRule* rule = source.module ? rule_for(source.module->vlnv) : nullptr;
+    if (!rule || !lacks_output(*rule, source.port->name)) return;
+    if (!misfit(*rule, *source.module).empty()) return;  // a stub has any
+    const std::string text = pin_text(source);
+    if (!missing_.insert(text).second) return;
+    result_.notes.push_back("`" + text + "` is not modelled: it stays " +
+                            (idles_high(source.port->name) ? "1" : "0") +
+                            ", and verdicts that rest on it are unknown");
   }
 
   std::string pin_text(const handoff::Pin& pin) {
@@ -322,7 +376,7 @@ class Writer {
     std::map<std::string, std::vector<std::pair<std::string, Ranges>>> masters;
     for (const Module& module : handoff_.modules) {
       for (const handoff::Segment& segment : module.segments) {
-        auto& slaves = masters[module.instance + "." + segment.master];
+        auto& slaves = masters[module.instance + "." + master_of(module, segment)];
         const std::string slave = segment.instance + "." + segment.slave;
         auto entry = std::find_if(slaves.begin(), slaves.end(),
                                   [&](const auto& known) { return known.first == slave; });
@@ -346,13 +400,29 @@ class Writer {
     }
   }
 
+  /// Where both general-purpose ports lead to one interconnect, Vivado names one of them for all
+  /// slaves. Of the PS the address decides (UG585).
+  std::string master_of(const Module& module, const handoff::Segment& segment) {
+    constexpr std::uint64_t gp0 = 0x4000'0000, gp1 = 0x8000'0000, end = 0xC000'0000;
+    if (&module != &handoff_.ps() || segment.base < gp0 || segment.base >= end)
+      return segment.master;
+    const std::string port = segment.base < gp1 ? "M_AXI_GP0" : "M_AXI_GP1";
+    const BusInterface* bus = module.interface(port);
+    if (port == segment.master || !bus || bus->bus.empty()) return segment.master;
+    result_.notes.push_back("the hand-off has " + segment.instance + " at " +
+                            vp::hex(segment.base) + " for " + segment.master +
+                            ", and the processor gets there by " + port + ": so it is here");
+    return port;
+  }
+
   // What nothing inside reads needs no level.
   void write_external() {
     std::vector<std::string> lines;
     for (const Port& port : handoff_.ports) {
       if (port.direction != 'I' || used_pins_.count(port.name) == 0) continue;
-      if (port.kind == "clk") {
-        const double hz = port.hz.value_or(1e8);
+      const std::optional<double> wished = wished_hz(port);
+      if (port.kind == "clk" || wished) {
+        const double hz = port.hz ? *port.hz : wished.value_or(1e8);
         lines.push_back("  " + yaml(port.name) + ": {clock: " + hertz(hz) + "}");
         result_.notes.push_back("the clock at pin " + port.name + " is " + hertz(hz) +
                                 " as typed in Vivado, where 100 MHz is the default: correct it "
@@ -372,8 +442,10 @@ class Writer {
   const Handoff& handoff_;
   const handoff::RtlFinder& rtl_;
   Netlist nets_;
+  std::map<std::string, double> wishes_;
   ImportedDesign result_;
   std::set<std::string> used_pins_;
+  std::set<std::string> missing_;  ///< outputs that no model has
 };
 
 }  // namespace

@@ -111,8 +111,8 @@ xilinx::AxiDmaBuild dma_build(const Placement& at) {
   build.length_width = static_cast<std::uint32_t>(at.number("C_SG_LENGTH_WIDTH"));
   build.mm2s_dre = at.flag("C_INCLUDE_MM2S_DRE");
   build.s2mm_dre = at.flag("C_INCLUDE_S2MM_DRE");
-  build.burst_beats = static_cast<std::uint32_t>(
-      at.number(build.include_mm2s ? "C_MM2S_BURST_SIZE" : "C_S2MM_BURST_SIZE"));
+  build.mm2s_burst_beats = static_cast<std::uint32_t>(at.number("C_MM2S_BURST_SIZE"));
+  build.s2mm_burst_beats = static_cast<std::uint32_t>(at.number("C_S2MM_BURST_SIZE"));
   build.mm2s = dma_widths(at, "C_M_AXI_MM2S_DATA_WIDTH", "C_M_AXIS_MM2S_TDATA_WIDTH");
   build.s2mm = dma_widths(at, "C_M_AXI_S2MM_DATA_WIDTH", "C_S_AXIS_S2MM_TDATA_WIDTH");
   return build;
@@ -167,6 +167,23 @@ void add_s2mm(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed
   placed.stream_slaves["S_AXIS_S2MM"] = {bind, &clock, bytes};
 }
 
+/// Several masters of a model that leave the IP as one.
+void join_masters(Placed& placed, const std::vector<std::string>& names, const std::string& one) {
+  std::vector<MasterPort> ports;
+  for (const std::string& name : names) {
+    const auto port = placed.masters.find(name);
+    if (port == placed.masters.end()) continue;
+    ports.push_back(port->second);
+    placed.masters.erase(port);
+  }
+  placed.masters[one] = {[ports](vp::Router& way) {
+                           for (const MasterPort& port : ports) port.bind(way);
+                         },
+                         [ports](xilinx::MemoryPath& path) {
+                           for (const MasterPort& port : ports) port.share(path);
+                         }};
+}
+
 Placed place_dma(const Placement& at) {
   const xilinx::AxiDmaBuild build = dma_build(at);
   vp::Clock& clock =
@@ -179,6 +196,7 @@ Placed place_dma(const Placement& at) {
   if (dma->include_mm2s) add_mm2s(at, *dma, clock, placed);
   if (dma->include_s2mm) add_s2mm(at, *dma, clock, placed);
   if (dma->include_sg) placed.masters["M_AXI_SG"] = memory_master(dma->scatter_gather().m_axi);
+  if (at.flag("C_SINGLE_INTERFACE")) join_masters(placed, {"M_AXI_MM2S", "M_AXI_S2MM"}, "M_AXI");
   placed.object = std::move(dma);
   return placed;
 }

@@ -30,18 +30,16 @@ const char* name_of(const Placement& at) {
 
 /// Inputs from the board, whose devices are wired to the model as a whole. One that a part of the
 /// design drives is refused: the model has no levels there.
-void leave_to_board(const Placement& at, Placed& placed, const std::vector<std::string>& pins) {
-  for (const std::string& pin : pins) {
+void leave_to_board(const Placement& at, Placed& placed) {
+  const std::string& ip = at.part.rule()->ip;
+  for (const std::string& pin : board_inputs(ip)) {
+    placed.unused_inputs.insert(pin);
     const auto source = at.part.pins.find(pin);
     const PlacedPart* driver =
         source == at.part.pins.end() ? nullptr : at.design.part(source->second.part);
-    const IpRule* rule = driver ? rule_for(driver->vlnv) : nullptr;
-    const bool is_constant = rule && (rule->ip == "xlconstant" || rule->ip == "ilconstant");
-    if (driver && !is_constant) {
-      at.refuse("its pin " + pin + " is driven by " + source->second.text() +
-                ", and its model takes devices of the board only: 'as: stub' leaves it out");
-    }
-    placed.unused_inputs.insert(pin);
+    if (!driver || may_drive_board_input(ip, driver->vlnv, source->second.port)) continue;
+    at.refuse("its pin " + pin + " is driven by " + source->second.text() +
+              ", and its model takes devices of the board only: 'as: stub' leaves it out");
   }
 }
 
@@ -106,7 +104,7 @@ Placed place_iic(const Placement& at) {
   Placed placed;
   placed.slaves = {{"S_AXI", registers(iic->s_axi)}};
   placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", iic->s_axi_aresetn)}};
-  leave_to_board(at, placed, {"scl_i", "sda_i"});
+  leave_to_board(at, placed);
   placed.outputs = {{"iic2intc_irpt", &iic->iic2intc_irpt}, {"gpo", &iic->gpo}};
   placed.object = std::move(iic);
   return placed;
@@ -122,8 +120,7 @@ Placed place_uartlite(const Placement& at) {
   Placed placed;
   placed.slaves = {{"S_AXI", registers(uart->s_axi)}};
   placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", uart->s_axi_aresetn)}};
-  if (!serial_driver(at.design, at.part)) leave_to_board(at, placed, {"rx"});
-  placed.unused_inputs.insert("rx");
+  leave_to_board(at, placed);
   placed.outputs = {{"interrupt", &uart->interrupt}};
   placed.serial = uart.get();
   placed.object = std::move(uart);
@@ -140,7 +137,7 @@ Placed place_quad_spi(const Placement& at) {
   Placed placed;
   placed.slaves = {{"AXI_LITE", registers(spi->s_axi)}};
   placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", spi->s_axi_aresetn)}};
-  leave_to_board(at, placed, {"io0_i", "io1_i", "sck_i", "ss_i", "spisel"});
+  leave_to_board(at, placed);
   placed.outputs = {{"ip2intc_irpt", &spi->ip2intc_irpt}};
   placed.object = std::move(spi);
   return placed;
@@ -266,9 +263,7 @@ Placed place_xadc(const Placement& at) {
   Placed placed;
   placed.slaves = {{"s_axi_lite", registers(wizard->s_axi_lite)}};
   placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", wizard->s_axi_aresetn)}};
-  leave_to_board(at, placed, {"vp_in", "vn_in"});
-  for (unsigned n = 0; n < board::Xadc::aux_count; ++n)
-    leave_to_board(at, placed, {"vauxp" + std::to_string(n), "vauxn" + std::to_string(n)});
+  leave_to_board(at, placed);
   placed.outputs = {{"ip2intc_irpt", &wizard->ip2intc_irpt}, {"alarm_out", &wizard->alarm_out}};
   for (auto& pin : wizard->alarm) placed.outputs[pin.basename()] = &pin;
   placed.object = std::move(wizard);

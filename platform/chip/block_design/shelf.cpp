@@ -33,6 +33,7 @@ std::vector<ParameterRule> dma_parameters() {
           {"C_ENABLE_MULTI_CHANNEL", "0", {"0"}},
           {"C_MICRO_DMA", "0", {"0"}},
           {"C_SG_INCLUDE_STSCNTRL_STRM", "0", {"0"}},
+          {"C_SINGLE_INTERFACE", "0", {"0", "1"}},
           {"C_SG_LENGTH_WIDTH", "14"},
           {"C_INCLUDE_MM2S", "1", {"0", "1"}},
           {"C_M_AXI_MM2S_DATA_WIDTH", "32", {"32", "64", "128", "256", "512", "1024"}},

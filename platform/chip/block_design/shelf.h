@@ -49,6 +49,19 @@ const IpRule* rule_for(const std::string& vlnv);
 /// The rule of a parameter; null if the IP has no such one that matters.
 const ParameterRule* find_parameter(const IpRule& rule, const std::string& name);
 
+/// Inputs of an IP at which its model takes devices of the board, as a whole.
+const std::vector<std::string>& board_inputs(const std::string& ip);
+/// Whether a pin of another part may drive one of them all the same: a constant, whose level says
+/// nothing, and the line of another UART Lite.
+bool may_drive_board_input(const std::string& ip, const std::string& driver,
+                           const std::string& pin);
+
+/// Whether the vendor's IP has this output and what the platform has in its place does not. It
+/// keeps its idle level then, and a result for which something reads it rests on a stub.
+bool lacks_output(const IpRule& rule, const std::string& pin);
+/// The idle level of an output that is not modelled, by its name: `_n` at the end is active low.
+bool idles_high(const std::string& pin);
+
 /// Whether a value is modelled.
 bool is_allowed(const ParameterRule& rule, const std::string& value);
 /// What is: "'0' or '1'", "8 to 32".

@@ -28,6 +28,19 @@ pugi::xml_object_range<pugi::xml_named_node_iterator> items(const pugi::xml_node
   return parent.child(list).children(item);
 }
 
+/// What an interface is whose VLNV the file lacks, as in Vivado 2015: by the pins that each has.
+std::string kind_by_pins(const BusInterface& bus) {
+  const auto has = [&](const std::string& end) {
+    return std::any_of(bus.pins.begin(), bus.pins.end(), [&](const auto& pin) {
+      const std::string name = "_" + lower(pin.second);
+      return name.size() > end.size() &&
+             name.compare(name.size() - end.size(), end.size(), end) == 0;
+    });
+  };
+  if (has("_awaddr") || has("_araddr")) return "aximm";
+  return has("_tvalid") ? "axis" : "";
+}
+
 /// Takes the elements of a .hwh apart.
 class HwhReader {
  public:
@@ -146,8 +159,10 @@ class HwhReader {
     if (bus.bus == "__NOC__") bus.bus.clear();  // Vivado's word for no connection
     for (const auto& parameter : node.children("PARAMETER"))
       bus.parameters[required(parameter, "NAME")] = vp::visible(attribute(parameter, "VALUE"));
+    // Vivado 2015 gives no logical names.
     for (const auto& pin : items(node, "PORTMAPS", "PORTMAP"))
-      bus.pins.emplace_back(required(pin, "LOGICAL"), required(pin, "PHYSICAL"));
+      bus.pins.emplace_back(vp::visible(attribute(pin, "LOGICAL")), required(pin, "PHYSICAL"));
+    if (vlnv.size() != 4) bus.kind = kind_by_pins(bus);
     return bus;
   }
 

@@ -89,9 +89,10 @@ void add_file(OwnDriver& driver, const std::string& kind, const std::filesystem:
   } else if (ending == ".mdd") {
     driver.peripherals = peripherals_of(text);
   } else if (ending == ".tcl") {
-    for (const char* command :
+    // The vendor's tools have them without the x, too: ::hsi::utils::define_include_file.
+    for (const std::string command :
          {"xdefine_include_file", "xdefine_config_file", "xdefine_canonical_xpars"}) {
-      auto words = words_behind(text, command);
+      auto words = words_behind(text, command.substr(1));
       if (!words.empty()) driver.scripts[command] = std::move(words);
     }
   }

@@ -194,6 +194,20 @@ std::vector<std::string> declared_parameters(const std::string& file, const Modu
   return result;
 }
 
+/// The RTL that sets of files of a component.xml list, and the IP of the vendor's (.xci).
+std::vector<fs::path> listed_files(const pugi::xml_node& root, const fs::path& folder,
+                                   const std::set<std::string>& sets) {
+  std::vector<fs::path> list;
+  for (const auto& files : root.child("spirit:fileSets").children("spirit:fileSet")) {
+    if (sets.count(child(files, "name")) == 0) continue;
+    for (const auto& file : files.children("spirit:file")) {
+      const fs::path path = (folder / child(file, "name")).lexically_normal();
+      if (is_verilog(path) || is_vhdl(path) || path.extension() == ".xci") list.push_back(path);
+    }
+  }
+  return list;
+}
+
 }  // namespace
 
 RtlSources RtlFinder::find(const Module& module) const {
@@ -266,7 +280,9 @@ RtlSources RtlFinder::look(const Module& module) const {
     last = packaged(module, component);
     if (!last.files.empty()) return last;
   }
-  return last;
+  // Of a module reference Vivado writes a description without its sources.
+  const bool is_reference = vp::split(module.vlnv, ':').at(1) == "module_ref";
+  return is_reference ? by_name(module) : last;
 }
 
 RtlSources RtlFinder::packaged(const Module& module, const std::string& component) const {
@@ -279,22 +295,25 @@ RtlSources RtlFinder::packaged(const Module& module, const std::string& componen
         component + " is revision " + revision + " of it, the design has " + module.revision;
     return sources;
   }
-  std::string set;
+  std::set<std::string> sets;
   for (const auto& view :
        root.child("spirit:model").child("spirit:views").children("spirit:view")) {
     const std::string name = child(view, "name");
     const bool synthesis = name.find("synthesis") != std::string::npos;
     const bool first_choice = name.find("verilogsynthesis") != std::string::npos;
-    if (!synthesis || (!set.empty() && !first_choice)) continue;
+    if (!synthesis || (!sets.empty() && !first_choice)) continue;
     sources.top = child(view, "modelName");
-    set = vp::visible(view.child("spirit:fileSetRef").child("spirit:localName").text().get());
+    sets.clear();  // one of the IP's own and one for each IP of the vendor's in it
+    for (const auto& set : view.children("spirit:fileSetRef")) sets.insert(child(set, "localName"));
   }
-  for (const auto& files : root.child("spirit:fileSets").children("spirit:fileSet")) {
-    if (child(files, "name") != set) continue;
-    for (const auto& file : files.children("spirit:file")) {
-      const fs::path path =
-          (fs::path(component).parent_path() / child(file, "name")).lexically_normal();
-      if (is_verilog(path) || is_vhdl(path)) sources.files.push_back(path.string());
+  std::string core;
+  for (const fs::path& path : listed_files(root, fs::path(component).parent_path(), sets)) {
+    const bool is_core = path.extension() == ".xci";
+    const auto model = is_core ? modules_.find(path.stem().string()) : modules_.end();
+    if (is_core && model == modules_.end()) {
+      core = path.string();
+    } else {
+      sources.files.push_back(is_core ? model->second : path.string());
     }
   }
   std::error_code ignored;
@@ -303,6 +322,11 @@ RtlSources RtlFinder::packaged(const Module& module, const std::string& componen
     sources.why = component + " lists '" + file + "', which is missing";
     sources.files.clear();
     break;
+  }
+  if (!core.empty() && sources.why.empty()) {
+    sources.why = component + " has an IP of the vendor's in it, " + core +
+                  ", of which there are no sources: name a folder that has a module of its name";
+    sources.files.clear();
   }
   if (sources.files.empty() && sources.why.empty())
     sources.why = component + " lists no Verilog or VHDL for synthesis";

@@ -263,7 +263,10 @@ void add_interrupts(HardwareMap& map, Zynq& zynq) {
   // Other wiring is followed bit by bit.
   for (unsigned bit = 0; lines && bit < gic::irq_f2p_bits; ++bit) {
     const xilinx::BitOrigin origin = xilinx::Wiring::origin(*lines, bit);
-    if (origin.signal && origin.signal != lines)
+    if (!origin.signal || origin.signal == lines) continue;
+    // The width of an output of a stub is not known: it is one line, as interrupts of IP are.
+    const bool is_known = origin.signal->width() <= gic::irq_f2p_bits;
+    if (is_known || origin.bit == 0)
       map.interrupts.push_back({gic::irq_f2p_id(bit), origin.signal->name()});
   }
   std::sort(map.interrupts.begin(), map.interrupts.end(),

@@ -29,7 +29,7 @@ void add_dma(Device& device, const xilinx::AxiDma& dma) {
   const std::uint32_t mm2s_width = 8 * dma.mm2s_widths.memory_bytes;
   const std::uint32_t s2mm_width = 8 * dma.s2mm_widths.memory_bytes;
   const std::uint32_t mm2s_dre = dma.mm2s_dre.get(), s2mm_dre = dma.s2mm_dre.get();
-  const std::uint32_t burst_beats = dma.burst_beats;
+  const std::uint32_t reads = dma.mm2s_burst_beats, writes = dma.s2mm_burst_beats;
   const std::uint32_t mm2s = dma.include_mm2s.get(), s2mm = dma.include_s2mm.get();
   const std::uint32_t sg = dma.include_sg.get(), length_width = dma.length_width;
   device.driver = "AXIDMA";
@@ -45,20 +45,20 @@ void add_dma(Device& device, const xilinx::AxiDma& dma) {
                     {"ENABLE_MULTI_CHANNEL", 0},
                     {"NUM_MM2S_CHANNELS", 1},
                     {"NUM_S2MM_CHANNELS", 1},
-                    {"MM2S_BURST_SIZE", burst_beats},
-                    {"S2MM_BURST_SIZE", burst_beats},
+                    {"MM2S_BURST_SIZE", reads},
+                    {"S2MM_BURST_SIZE", writes},
                     {"MICRO_DMA", 0},
                     {"ADDR_WIDTH", address_width},
                     {"SG_LENGTH_WIDTH", length_width},
                     {"c_addr_width", address_width},
                     {"c_sg_length_width", length_width}};
-  device.sdt_options = {{"SG_INCLUDE_STSCNTRL_STRM", 0},  {"INCLUDE_MM2S", mm2s},
-                        {"INCLUDE_MM2S_DRE", mm2s_dre},   {"MM2S_DATA_WIDTH", mm2s_width},
-                        {"INCLUDE_S2MM", s2mm},           {"INCLUDE_S2MM_DRE", s2mm_dre},
-                        {"S2MM_DATA_WIDTH", s2mm_width},  {"NUM_MM2S_CHANNELS", 1},
-                        {"NUM_S2MM_CHANNELS", 1},         {"MM2S_BURST_SIZE", burst_beats},
-                        {"S2MM_BURST_SIZE", burst_beats}, {"MICRO_DMA", 0},
-                        {"ADDRWIDTH", address_width},     {"SG_LENGTH_WIDTH", length_width}};
+  device.sdt_options = {{"SG_INCLUDE_STSCNTRL_STRM", 0}, {"INCLUDE_MM2S", mm2s},
+                        {"INCLUDE_MM2S_DRE", mm2s_dre},  {"MM2S_DATA_WIDTH", mm2s_width},
+                        {"INCLUDE_S2MM", s2mm},          {"INCLUDE_S2MM_DRE", s2mm_dre},
+                        {"S2MM_DATA_WIDTH", s2mm_width}, {"NUM_MM2S_CHANNELS", 1},
+                        {"NUM_S2MM_CHANNELS", 1},        {"MM2S_BURST_SIZE", reads},
+                        {"S2MM_BURST_SIZE", writes},     {"MICRO_DMA", 0},
+                        {"ADDRWIDTH", address_width},    {"SG_LENGTH_WIDTH", length_width}};
   if (sg != 0) device.sdt_options.emplace_back("INCLUDE_SG", sg);
 }
 

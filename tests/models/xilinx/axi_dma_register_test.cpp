@@ -220,13 +220,34 @@ BOOST_AUTO_TEST_CASE(impossible_builds_are_refused) {
   AxiDmaBuild none;
   none.include_mm2s = none.include_s2mm = false;
   BOOST_CHECK_THROW(xilinx::AxiDma("none", clock, none), vp::InputError);
-  AxiDmaBuild odd;
-  odd.burst_beats = 24;
-  BOOST_CHECK_THROW(xilinx::AxiDma("odd", clock, odd), vp::InputError);
+  for (const auto burst_beats : {&AxiDmaBuild::mm2s_burst_beats, &AxiDmaBuild::s2mm_burst_beats}) {
+    AxiDmaBuild odd;
+    odd.*burst_beats = 24;
+    BOOST_CHECK_THROW(xilinx::AxiDma("odd", clock, odd), vp::InputError);
+  }
   vp::Configuration configuration;
   configuration.set("narrow.length_width=7");
   vp::Configuration::Scope scope(configuration);
   BOOST_CHECK_THROW(xilinx::AxiDma("narrow", clock), vp::InputError);
+}
+
+BOOST_AUTO_TEST_CASE(each_channel_has_bursts_of_its_own_length) {
+  AxiDmaBuild build;
+  build.mm2s_burst_beats = 16;
+  build.s2mm_burst_beats = 4;
+  DmaBench bench(build);
+  constexpr std::uint32_t to = DmaBench::memory_base + 0x1000;
+  bench.software.simulate([&] {
+    bench.start_s2mm(to, 64);
+    bench.start_mm2s(DmaBench::memory_base, 64);
+    bench.send_packet(16);
+    bench.at(400);
+  });
+  const std::vector<std::pair<std::uint64_t, std::uint64_t>> written{
+      {to, 16}, {to + 16, 16}, {to + 32, 16}, {to + 48, 16}};
+  BOOST_TEST_REQUIRE(bench.mm2s_bursts.bursts.size() == 1u);
+  BOOST_TEST(bench.mm2s_bursts.bursts.front().second == 64u);
+  BOOST_TEST((bench.s2mm_bursts.bursts == written));
 }
 
 BOOST_AUTO_TEST_CASE(a_channel_without_stream_is_an_error) {

@@ -96,7 +96,7 @@ class LazySource : public vp::BeatSource, private vp::SignalListener {
 
 AxiDmaBuild small_bursts(bool sg) {
   AxiDmaBuild build;
-  build.burst_beats = 4;
+  build.mm2s_burst_beats = build.s2mm_burst_beats = 4;
   build.include_sg = sg;
   return build;
 }

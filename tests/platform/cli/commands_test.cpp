@@ -212,8 +212,8 @@ BOOST_AUTO_TEST_CASE(config_prints_a_part_of_the_tree) {
   BOOST_TEST(out.rfind("pl:\n", 0) == 0u, out);
   BOOST_TEST(contains(out, "    mm2s_introut_id: 61 "), out);
   BOOST_TEST(!contains(out, "\nps:"), out);
-  BOOST_TEST(run({"config", "pl.axi_dma_0", "--set", "pl.axi_dma_0.burst_beats=16"}) == 0);
-  BOOST_TEST(contains(out, "    burst_beats: 16 "), out);
+  BOOST_TEST(run({"config", "pl.axi_dma_0", "--set", "pl.axi_dma_0.mm2s_burst_beats=16"}) == 0);
+  BOOST_TEST(contains(out, "    mm2s_burst_beats: 16 "), out);
   BOOST_TEST(!contains(out, "axi_dma_1"), out);
   BOOST_TEST(run({"config", "ps.cpu_clk.frequency"}) == 0);
   BOOST_TEST(out.rfind("ps:\n  cpu_clk:\n    frequency: 666.666667 MHz ", 0) == 0u, out);

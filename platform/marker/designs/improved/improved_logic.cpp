@@ -16,7 +16,7 @@ xilinx::AxiDmaBuild packet_writer(std::uint32_t bytes, std::uint32_t burst_words
   xilinx::AxiDmaBuild build;
   build.s2mm.memory_bytes = words_per_clock * xilinx::word_bytes;
   build.include_mm2s = false;
-  build.burst_beats = burst_words;
+  build.s2mm_burst_beats = burst_words;
   build.length_width = marker_logic::bits_for(bytes + 1, 14);
   return build;
 }

@@ -38,7 +38,7 @@ xilinx::AxiDmaBuild one_channel(bool mm2s, std::uint32_t burst_words) {
   xilinx::AxiDmaBuild build;
   build.include_mm2s = mm2s;
   build.include_s2mm = !mm2s;
-  build.burst_beats = burst_words;
+  build.mm2s_burst_beats = build.s2mm_burst_beats = burst_words;
   return build;
 }
 

@@ -63,7 +63,7 @@ class ArmedDma {
     xilinx::AxiDmaBuild build;
     build.s2mm.memory_bytes = memory_words * xilinx::word_bytes;
     build.include_mm2s = false;
-    build.burst_beats = 16;
+    build.mm2s_burst_beats = build.s2mm_burst_beats = 16;
     return build;
   }
 };

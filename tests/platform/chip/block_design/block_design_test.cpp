@@ -2,6 +2,7 @@
 #include <chip/block_design/import_design.h>
 #include <chip/system/hardware_map.h>
 #include <vp/error.h>
+#include <vp/text.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/fabric_clock/fabric_clock.h>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "built_design.h"
 #include "input_error.h"
@@ -113,6 +115,14 @@ BOOST_AUTO_TEST_CASE(an_interrupt_reaches_its_number) {
   BOOST_TEST(!chip.zynq->ps.gic.logic().wire[62]);
 }
 
+BOOST_AUTO_TEST_CASE(an_interrupt_of_a_stub_is_one_line) {
+  const Built chip(replaced(small_design(), "IRQ_F2P: lines.dout", "IRQ_F2P: own_0.done"));
+  std::vector<std::uint32_t> ids;
+  for (const auto& interrupt : hardware_map(*chip.zynq).interrupts)
+    if (interrupt.source == "pl.own_0.done") ids.push_back(interrupt.id);
+  BOOST_TEST((ids == std::vector<std::uint32_t>{61}));
+}
+
 BOOST_AUTO_TEST_CASE(pins_of_the_ps_lead_through_gates_and_back) {
   const std::string gates =
       "  low: {ip: 'xilinx.com:ip:xlslice:1.0', parameters: {DIN_FROM: 3}, pins: {Din: "
@@ -141,18 +151,22 @@ BOOST_AUTO_TEST_CASE(masters_in_stubs_need_no_way) {
     if (device.name == "axi_gpio_0") BOOST_TEST(device.base == 0x4120'0000u);
 }
 
-// The bus of such a processor is there all the same, with its memory.
+// The bus of such a processor is there all the same, with its memory, which each of its ports may
+// see in another place.
 BOOST_AUTO_TEST_CASE(a_bus_whose_only_master_is_a_stub_is_built) {
   std::string text = replaced(small_design(), "parts:\n",
                               "parts:\n  soft:\n    ip: xilinx.com:ip:microblaze:11.0\n"
                               "  soft_bus:\n    ip: xilinx.com:ip:axi_interconnect:2.1\n"
                               "    pins: {ACLK: ps.FCLK_CLK0}\n"
-                              "    buses: {S00_AXI: soft.M_AXI_DP}\n"
+                              "    buses: {S00_AXI: soft.M_AXI_DP, S01_AXI: soft.M_AXI_IC}\n"
                               "  soft_memory:\n    ip: xilinx.com:ip:axi_bram_ctrl:4.1\n"
                               "    pins: {s_axi_aclk: ps.FCLK_CLK0}\n"
                               "    buses: {S_AXI: soft_bus.M00_AXI}\n");
   text = replaced(text, "addresses:\n",
-                  "addresses:\n  soft.M_AXI_DP:\n    soft_memory.S_AXI: [0x0, 8 KiB]\n");
+                  "addresses:\n  soft.M_AXI_DP:\n    soft_memory.S_AXI: [0x0, 8 KiB]\n"
+                  "  soft.M_AXI_IC:\n    soft_memory.S_AXI: [0x10000, 8 KiB]\n");
+  const std::string overlap = replaced(text, "[0x10000, 8 KiB]", "[0x1000, 4 KiB]");
+  BOOST_TEST(input_error([&] { const Built chip(overlap); }).find("overlaps") != std::string::npos);
   Built chip(text);
   BOOST_CHECK_NO_THROW(sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US)));
 }
@@ -192,6 +206,29 @@ BOOST_AUTO_TEST_CASE(the_coherent_port_leads_to_the_ddr) {
   text.replace(text.find("    ps.S_AXI_ACP"), 16, "    ps.S_AXI_HP4");
   BOOST_TEST(input_error([&] { const Built chip(text); }).find("no bus leads from there to it") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_rests_and_leaves_the_verdict_open) {
+  const auto stubs_behind = [](const std::string& output) {
+    Built chip(replaced(small_design(), "gpio_io_i: external.buttons", "gpio_io_i: " + output));
+    Built::pass_us(1);
+    const auto& gpio = chip.part<xilinx::AxiGpio>("axi_gpio_0");
+    BOOST_TEST(std::uint32_t{gpio.gpio.io_i} == (output.back() == 'n' ? 1u : 0u));
+    return vp::join(chip.zynq->design().used_stubs(), " ");
+  };
+  for (const char* lacking : {"axi_dma_0.axi_dma_tstvec", "axi_dma_0.mm2s_prmry_reset_out_n"})
+    BOOST_TEST(stubs_behind(lacking) == lacking);
+  BOOST_TEST(stubs_behind("external.buttons") == "");
+}
+
+// What is clocked goes before its clock then, too: the sanitizers of CI see to it.
+BOOST_AUTO_TEST_CASE(a_design_that_is_refused_is_taken_apart_in_order) {
+  std::string text = small_design();
+  for (std::size_t at; (at = text.find("aclk: ps.FCLK_CLK0")) != std::string::npos;)
+    text.replace(at, 18, "aclk: clk_0.pixel_clk");
+  BOOST_TEST(input_error([&] {
+               const Built chip(replaced(text, "In0: axi_dma_0.s2mm_introut", "In0: axi_dma_0.x"));
+             }).find("'axi_dma_0.x' is no output of axi_dma_0") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_joined_is_refused_with_its_line) {

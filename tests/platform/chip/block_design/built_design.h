@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "small_handoff.h"
 #include "temporary_files.h"
 
 namespace kit {
@@ -54,12 +55,5 @@ struct BuiltDesign : Simulation {
   platform::DesignInfo info;
   std::unique_ptr<platform::Zynq> zynq;
 };
-
-/// `text` with `by` in the place of the first `what`.
-inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  BOOST_TEST_REQUIRE(at != std::string::npos, what);
-  return text.replace(at, what.size(), by);
-}
 
 }  // namespace kit

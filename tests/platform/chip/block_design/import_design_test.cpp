@@ -4,12 +4,14 @@
 #include <chip/block_design/import_design.h>
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <string>
 
 #include "input_error.h"
 #include "small_handoff.h"
 
 using namespace platform::block_design;
+using kit::replaced;
 using platform::handoff::read_hwh;
 
 namespace {
@@ -62,6 +64,81 @@ BOOST_AUTO_TEST_CASE(windows_of_one_slave_stand_together) {
   BOOST_TEST(parse_design(design.text, "design.yaml").addresses.size() == 8u);
 }
 
+// Vivado names one port for all slaves of an interconnect that both ports lead to.
+BOOST_AUTO_TEST_CASE(the_address_says_by_which_port_the_processor_gets_there) {
+  std::string text = kit::small_handoff().text();
+  const std::string other = R"(MASTERBUSINTERFACE="M_AXI_GP1")";
+  text = replaced(text, R"(INSTANCE="own_0" MASTERBUSINTERFACE="M_AXI_GP0")",
+                  R"(INSTANCE="own_0" )" + other);
+  const ImportedDesign design = import_design(read_hwh(text, "small.hwh"));
+  BOOST_TEST(!has(design.text, "ps.M_AXI_GP1:"));
+  BOOST_TEST(has(design.text, "own_0.S00_AXI: [0x43C00000"));
+  BOOST_TEST_REQUIRE(!design.notes.empty());
+  BOOST_TEST(has(design.notes.back(), "own_0 at 0x43C00000 for M_AXI_GP1"));
+  // A port that leads nowhere is not the one.
+  text = replaced(text, R"(BUSNAME="ps_M_AXI_GP0" NAME="M_AXI_GP0")",
+                  R"(BUSNAME="__NOC__" NAME="M_AXI_GP0")");
+  BOOST_TEST(has(import_design(read_hwh(text, "small.hwh")).text, "ps.M_AXI_GP1:"));
+}
+
+BOOST_AUTO_TEST_CASE(a_small_memory_has_its_buffers_in_its_upper_half) {
+  const std::string small =
+      replaced(kit::small_handoff().text(), "0x1FFFFFFF\"/>", "0x0FFFFFFF\"/>");
+  BOOST_TEST(has(import_design(read_hwh(small, "s.hwh")).text, "ps.ddr.dma_base: 0x08000000\n"));
+  BOOST_TEST(!has(imported(kit::small_handoff()).text, "dma_base"));
+}
+
+BOOST_AUTO_TEST_CASE(a_model_for_the_board_gives_way_to_a_stub_where_a_part_drives_it) {
+  kit::HwhText text = kit::small_handoff();
+  const auto iic = [&](const std::string& name, const std::string& net) {
+    text.module(name, "xilinx.com:ip:axi_iic:2.1", "", kit::pin("I", "scl_i", net));
+  };
+  text.module("one", "xilinx.com:ip:xlconstant:1.1", "", kit::pin("O", "dout", "one_dout"));
+  iic("behind_own", "own_done");
+  iic("at_constant", "one_dout");
+  iic("at_board", "buttons");
+  for (const ImportedPart& part : imported(text).parts) {
+    if (part.name == "behind_own")
+      BOOST_TEST(has(part.why, "its pin scl_i is driven by own_0.done"), part.why);
+    if (part.name == "at_constant" || part.name == "at_board")
+      BOOST_TEST((part.kind == Kind::model), part.name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_clock_of_unknown_frequency_is_what_its_wizard_was_made_for) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("mux", "me:user:mux:1.0", "", kit::pin("O", "clk_out", "mux_clk"));
+  text.module("clk_1", "xilinx.com:ip:clk_wiz:6.0", kit::parameter("PRIM_IN_FREQ", "10.000"),
+              kit::pin("I", "clk_in1", "mux_clk"));
+  BOOST_TEST(has(imported(text).text, "    clocks:\n      clk_out: 10 MHz\n"));
+}
+
+// A pin without a type is a clock if what it drives is one.
+BOOST_AUTO_TEST_CASE(a_pin_that_drives_a_clock_is_one) {
+  kit::HwhText text = kit::small_handoff();
+  text.external(kit::pin("I", "sysclk", "sysclk") + kit::pin("I", "level", "level"));
+  text.module("other", "me:user:other:1.0", "",
+              kit::pin("I", "clk", "sysclk", 1, R"(SIGIS="clk" CLKFREQUENCY="125000000")") +
+                  kit::pin("I", "on", "level"));
+  const std::string design = imported(text).text;
+  BOOST_TEST(has(design, "  sysclk: {clock: 125 MHz}\n"));
+  BOOST_TEST(has(design, "  level: {level: 0}\n"));
+}
+
+BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_is_named) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("rom", "xilinx.com:ip:blk_mem_gen:8.4", "", kit::pin("O", "douta", "rom_douta"));
+  text.module("not_0", "xilinx.com:ip:util_vector_logic:2.0", kit::parameter("C_OPERATION", "not"),
+              kit::pin("I", "Op1", "rom_douta"));
+  const ImportedDesign design = imported(text);
+  const auto says = [&](const std::string& what) {
+    return std::count_if(design.notes.begin(), design.notes.end(),
+                         [&](const std::string& note) { return has(note, what); });
+  };
+  BOOST_TEST(says("`rom.douta` is not modelled: it stays 0") == 1);
+  BOOST_TEST(says("is not modelled") == 1);
+}
+
 BOOST_AUTO_TEST_CASE(parameters_as_usual_are_left_out) {
   const std::string text = imported(kit::small_handoff()).text;
   BOOST_TEST(has(text, "      C_GPIO_WIDTH: 4\n"));
@@ -94,7 +171,9 @@ BOOST_AUTO_TEST_CASE(what_has_no_model_is_a_stub_with_a_reason) {
 }
 
 BOOST_AUTO_TEST_CASE(drivers_of_own_ip_have_the_tables_of_their_instances) {
-  platform::handoff::Handoff handoff = read_hwh(kit::small_handoff().text(), "small.hwh");
+  kit::HwhText text = kit::small_handoff();
+  text.module("behind_cpu", "me:user:own:1.0", "", "");  // which the PS does not see
+  platform::handoff::Handoff handoff = read_hwh(text.text(), "small.hwh");
   for (auto& module : handoff.modules)
     if (module.ip() == "own") module.parameters["C_S00_AXI_BASEADDR"] = "0x43C00000";
   platform::handoff::OwnDriver driver;

@@ -2,6 +2,7 @@
 // clocks, and what is refused.
 #include <chip/system/hardware_map.h>
 #include <xilinx/axi_cdma/axi_cdma.h>
+#include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_fifo_mm_s/axi_fifo_mm_s.h>
 #include <xilinx/axi_iic/axi_iic.h>
 #include <xilinx/axi_intc/axi_intc.h>
@@ -112,6 +113,51 @@ BOOST_AUTO_TEST_CASE(each_is_built_as_its_parameters_say) {
   BOOST_TEST(xadc.sequence_channels.get() == 3u);
   BOOST_TEST(xadc.adcclk_divisor.get() == 5u);
   BOOST_TEST(xadc.converter.read(0x50) == 46573u);
+}
+
+// Vivado sets the lengths of bursts by channel, and may lead both channels out as one master.
+BOOST_AUTO_TEST_CASE(both_channels_of_a_dma_leave_as_one_master) {
+  const std::string dma =
+      part("axi_dma_0", "axi_dma:7.1",
+           "C_INCLUDE_SG: 0, C_SINGLE_INTERFACE: 1, C_MM2S_BURST_SIZE: 8, C_S2MM_BURST_SIZE: 64",
+           "s_axi_lite_aclk: ps.FCLK_CLK0",
+           "S_AXI_LITE: bus.M11_AXI, S_AXIS_S2MM: axi_dma_0.M_AXIS_MM2S");
+  std::string text = replaced(shelf_design(), "addresses:\n  ps.M_AXI_GP0:\n",
+                              dma +
+                                  "addresses:\n  axi_dma_0.M_AXI:\n"
+                                  "    ps.S_AXI_HP1: [0x0, 512 MiB]\n  ps.M_AXI_GP0:\n"
+                                  "    axi_dma_0.S_AXI_LITE: [0x40400000, 64 KiB]\n");
+  text = replaced(text, "S_AXI_HP0: axi_cdma_0.M_AXI",
+                  "S_AXI_HP0: axi_cdma_0.M_AXI, S_AXI_HP1: axi_dma_0.M_AXI");
+  BuiltDesign chip(text);
+  auto& engine = chip.part<xilinx::AxiDma>("axi_dma_0");
+  BOOST_TEST(engine.mm2s_burst_beats.get() == 8u);
+  BOOST_TEST(engine.s2mm_burst_beats.get() == 64u);
+  constexpr std::uint32_t from = 0x1000'0000, to = 0x1000'1000, bytes = 64;
+  chip.zynq->ps.ddr.at(from, bytes)[5] = 0x5A;
+  using namespace axi_dma;
+  for (const std::uint32_t control : {S2MM_DMACR, MM2S_DMACR})
+    BuiltDesign::write(engine.s_axi_lite, control, dmacr::RS);
+  BuiltDesign::write(engine.s_axi_lite, S2MM_DA, to);
+  BuiltDesign::write(engine.s_axi_lite, S2MM_LENGTH, bytes);
+  BuiltDesign::write(engine.s_axi_lite, MM2S_SA, from);
+  BuiltDesign::write(engine.s_axi_lite, MM2S_LENGTH, bytes);
+  BuiltDesign::pass_us(10);
+  BOOST_TEST(unsigned{chip.zynq->ps.ddr.at(to, bytes)[5]} == 0x5Au);
+}
+
+// The address editor lets a slave be without one, and a master without all of them.
+BOOST_AUTO_TEST_CASE(a_slave_without_an_address_is_out_of_reach) {
+  const std::string unseen =
+      part("mem", "smartconnect:1.0", "", "aclk: ps.FCLK_CLK0", "S00_AXI: axi_cdma_0.M_AXI");
+  std::string text = replaced(shelf_design(), "addresses:\n", unseen + "addresses:\n");
+  text = replaced(text, "S_AXI_HP0: axi_cdma_0.M_AXI", "S_AXI_HP0: mem.M00_AXI");
+  text = replaced(text, "  axi_cdma_0.M_AXI:\n    ps.S_AXI_HP0: [0x0, 512 MiB]\n", "");
+  BuiltDesign chip(replaced(text, "    axi_iic_0.S_AXI: [0x41600000, 64 KiB]\n", ""));
+  BuiltDesign::pass_us(1);
+  BOOST_TEST(chip.part<xilinx::AxiIic>("axi_iic_0").gpo.get() == 5u);
+  for (const auto& device : platform::hardware_map(*chip.zynq).devices)
+    BOOST_TEST(device.name != "axi_iic_0");
 }
 
 BOOST_AUTO_TEST_CASE(an_interrupt_passes_two_controllers) {

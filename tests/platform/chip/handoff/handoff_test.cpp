@@ -17,6 +17,8 @@
 
 using namespace platform::handoff;
 
+using kit::replaced;
+
 namespace {
 
 Handoff small() {
@@ -26,12 +28,6 @@ Handoff small() {
 /// What the refusal of a text says.
 std::string refusal(const std::string& text) {
   return input_error([&] { read_hwh(text, "x.hwh"); });
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  BOOST_TEST_REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
 }
 
 using Members = std::vector<std::pair<std::string, std::string>>;
@@ -76,6 +72,21 @@ BOOST_AUTO_TEST_CASE(what_a_module_is) {
   BOOST_TEST(handoff.module("own_0")->interface("M_NOTHING")->bus == "");
   BOOST_TEST(handoff.ps().segments.at(1).base == 0x4120'0000u);
   BOOST_TEST(handoff.ps().segments.at(1).last == 0x4120'FFFFu);
+}
+
+// Vivado 2015 names neither what an interface is nor the logical names of its pins.
+BOOST_AUTO_TEST_CASE(interfaces_without_vlnv_are_known_by_their_pins) {
+  const auto kind = [](const std::string& pins) {
+    kit::HwhText text = kit::small_handoff();
+    text.module("old_0", "me:user:old:1.0", "", "",
+                kit::element("BUSINTERFACE", {{"BUSNAME", "b"}, {"NAME", "S"}, {"TYPE", "SLAVE"}},
+                             "<PORTMAPS>" + pins + "</PORTMAPS>"));
+    return read_hwh(text.text(), "x.hwh").module("old_0")->interface("S")->kind;
+  };
+  BOOST_TEST(kind(R"(<PORTMAP PHYSICAL="s00_axi_awaddr"/><PORTMAP PHYSICAL="s00_axi_wdata"/>)") ==
+             "aximm");
+  BOOST_TEST(kind(R"(<PORTMAP PHYSICAL="S_AXIS_TVALID"/>)") == "axis");
+  BOOST_TEST(kind(R"(<PORTMAP PHYSICAL="valid"/>)") == "");
 }
 
 BOOST_AUTO_TEST_CASE(a_frequency_with_an_exponent) {
@@ -197,7 +208,7 @@ BOOST_AUTO_TEST_CASE(an_archive_has_the_drivers_of_own_ip) {
        {"drivers/own_v1_0/data/own.mdd", "OPTION supported_peripherals = (own_v1_0 other);"},
        {"drivers/own_v1_0/data/own.tcl",
         "xdefine_include_file $h \"xparameters.h\" \"XOwn\" \\\n  \"NUM_INSTANCES\" \\\n  "
-        "\"DEVICE_ID\"\n\"x\""},
+        "\"DEVICE_ID\"\n\"x\"\n::hsi::utils::define_config_file $h \"own_g.c\" \"Own\"\n"},
        {"drivers/own_v1_0/src/xown.c", "int own;"},
        {"drivers/own_v1_0/src/xown_linux.c", "int linux;"},
        {"drivers/own_v1_0/src/deep/er/xown.c", "int deeper;"},
@@ -218,6 +229,7 @@ BOOST_AUTO_TEST_CASE(an_archive_has_the_drivers_of_own_ip) {
   const std::vector<std::string> words{"xparameters.h", "XOwn", "NUM_INSTANCES", "DEVICE_ID"};
   BOOST_TEST(!is_of_driver("drivers/../src/hostile.h"));
   BOOST_TEST(own.scripts.at("xdefine_include_file") == words, boost::test_tools::per_element());
+  BOOST_TEST(own.scripts.at("xdefine_config_file").front() == "own_g.c", "its name without an x");
 }
 
 BOOST_AUTO_TEST_CASE(archives_that_are_no_archives) {

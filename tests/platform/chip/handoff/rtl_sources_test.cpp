@@ -2,6 +2,7 @@
 #include <chip/block_design/design_file.h>
 #include <chip/block_design/import_design.h>
 #include <chip/handoff/rtl_sources.h>
+#include <vp/file.h>
 #include <boost/test/unit_test.hpp>
 
 #include <filesystem>
@@ -101,6 +102,35 @@ BOOST_FIXTURE_TEST_CASE(what_does_not_fit_is_said, Folders) {
   BOOST_TEST(RtlFinder({folder("ip")}).find(own()).why ==
              "no module 'own' and no component.xml of me:user:own:1.0 in the folders of RTL");
   BOOST_TEST(input_error([&] { RtlFinder({folder("none")}); }).find("no folder '") == 0u);
+}
+
+BOOST_FIXTURE_TEST_CASE(a_module_reference_is_found_by_its_name, Folders) {
+  write_component("7", "xgui/own.tcl");
+  handoff::Module module = own();
+  const RtlFinder finder({folder("ip"), folder("plain")});
+  BOOST_TEST(finder.find(module).files.empty());
+  module.vlnv = "me:module_ref:own:1.0";
+  const std::string component = vp::read_text(folder("ip/component.xml"), "component");
+  write("ip/component.xml", kit::replaced(component, ">user<", ">module_ref<"));
+  const Names expected{"own.v", "helper.sv"};
+  BOOST_TEST(names(RtlFinder({folder("ip"), folder("plain")}).find(module)) == expected);
+}
+
+BOOST_FIXTURE_TEST_CASE(an_ip_of_the_vendors_inside_wants_sources, Folders) {
+  write_component("7", "own.v");
+  write("ip/own.v", "module own_v1_0;\nendmodule\n");
+  const std::string component = vp::read_text(folder("ip/component.xml"), "component");
+  const std::string core =
+      "<spirit:file><spirit:name>src/fir_0/fir_0.xci</spirit:name>"
+      "</spirit:file></spirit:fileSet>";
+  write("ip/component.xml", kit::replaced(component, "</spirit:fileSet>", core));
+  const auto find = [this] { return RtlFinder({folder("ip"), folder("plain")}).find(own()); };
+  BOOST_TEST(find().files.empty());
+  BOOST_TEST(find().why.find("src/fir_0/fir_0.xci, of which there are no sources") !=
+             std::string::npos);
+  write("plain/fir_0.v", "module fir_0;\nendmodule\n");
+  const Names expected{"own.v", "fir_0.v"};
+  BOOST_TEST(names(find()) == expected);
 }
 
 // Verilator and GHDL know none of them.

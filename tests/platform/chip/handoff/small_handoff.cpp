@@ -1,5 +1,7 @@
 #include "small_handoff.h"
 
+#include <boost/test/unit_test.hpp>
+
 namespace kit {
 
 namespace {
@@ -155,6 +157,12 @@ HwhText small_handoff() {
                   pin("O", "dout", "lines_dout", 3));
   text.external(pin("I", "buttons", "buttons", 4) + pin("O", "leds", "leds", 4));
   return text;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  BOOST_TEST_REQUIRE(at != std::string::npos, what);
+  return text.replace(at, what.size(), by);
 }
 
 }  // namespace kit

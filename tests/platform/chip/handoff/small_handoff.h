@@ -47,4 +47,7 @@ class HwhText {
 /// and two concats: IRQ_F2P is {DMA write, DMA read, GPIO}.
 HwhText small_handoff();
 
+/// `text` with `by` in the place of the first `what`, which must be there.
+std::string replaced(std::string text, const std::string& what, const std::string& by);
+
 }  // namespace kit
