@@ -280,7 +280,7 @@ class Builder {
   static double missed_bytes(Zynq& zynq, double stall_ns_per_line) {
     double stalls_ns = 0;
     for (const ps::Cpu* core : zynq.ps.cpus()) {
-      for (const ps::WorkCount& work : core->work())
+      for (const ps::WorkCount& work : core->work().counts())
         stalls_ns += work.stall_ns * static_cast<double>(work.count);
     }
     const double lines = stall_ns_per_line > 0 ? stalls_ns / stall_ns_per_line : 0;

@@ -158,7 +158,9 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   cpu.connect(ddr.dma_memory());
   place_stacks();
   cpu.set_poll_elision(poll_elision);
-  cpu.name_devices([this](std::uint32_t address) { return ps::Answerer{device_at(address)}; });
+  cpu.surroundings.device = [this](std::uint32_t address) {
+    return ps::Answerer{device_at(address)};
+  };
   if (cores == 1) return;
   const vp::HierarchyScope scope(*this);
   second_core_ = std::make_unique<SecondCore>(*this, cpu_clk.clk);
