@@ -213,7 +213,7 @@ function(markervp_add_program NAME)
 endfunction()
 
 # markervp_add_program_test(NAME test SCRIPT test_x.py PROGRAM target) runs the tests of a Python file with pytest, and the program
-# in them: the fixture `board` starts it (docs/software.md). JUnit: <test>.xml beside the build. Without SCRIPT the test is that
+# in them: the fixture `board` starts it (docs/program-tests.md). JUnit: <test>.xml beside the build. Without SCRIPT the test is that
 # `markervp run` ends well. ARGUMENTS go to it, with SCRIPT to each run that names no options.
 function(markervp_add_program_test)
   cmake_parse_arguments(TEST "" "NAME;SCRIPT;PROGRAM" "ARGUMENTS" ${ARGN})

@@ -50,7 +50,7 @@ RunOptions options_of(const std::string& folder) {
   if (!run.terminals.empty()) {
     throw vp::InputError(
         "this run had a terminal (--terminal), and when each key was typed is not known:  "
-        "type it with a test instead (docs/software.md), that is the same each time");
+        "type it with a test instead (docs/program-tests.md), that is the same each time");
   }
   run.trace.reset();
   run.trace_trigger.reset();

@@ -221,7 +221,7 @@ void add_debug_options(CLI::App& command, RunOptions& target) {
       ->type_name("FILE");
   command
       .add_option("--control", target.control,
-                  "let a test lead the run through this socket (docs/software.md)")
+                  "let a test lead the run through this socket (docs/program-tests.md)")
       ->type_name("DESCRIPTOR");
   command
       .add_option("--terminal", target.terminals,

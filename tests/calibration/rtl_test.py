@@ -111,7 +111,7 @@ class Nets(unittest.TestCase):
         self.assertIn(f"'per_net_ns' is 0.5, the reports give {true}", errors)
 
     def test_an_old_document_is_noticed(self):
-        self.assertEqual(run("--documented", PATHS, FIGURES, str(ROOT / "docs/rtl.md"))[0], 0)
+        self.assertEqual(run("--documented", PATHS, FIGURES, str(ROOT / "docs/rtl-library.md"))[0], 0)
         code, errors = run("--documented", PATHS, FIGURES, str(ROOT / "docs/traces.md"))
         self.assertEqual(code, 1)
         self.assertIn("is old", errors)
@@ -146,7 +146,7 @@ class Counts(unittest.TestCase):
         self.assertEqual((errors.repositories, errors.left_out), (1, None))
 
     def test_the_document_has_the_tables(self):
-        self.assertEqual(run("--documented", MODULES, str(ROOT / "docs/rtl.md"), program=counts)[0], 0)
+        self.assertEqual(run("--documented", MODULES, str(ROOT / "docs/rtl-library.md"), program=counts)[0], 0)
         code, errors = run("--documented", MODULES, str(ROOT / "docs/traces.md"), program=counts)
         self.assertEqual(code, 1)
         self.assertIn("is old", errors)

@@ -61,18 +61,12 @@ namespace {
 
 /// Where the boot code of the second core looks for its entry (UG585 6.1.10).
 constexpr std::uint32_t start_address = 0xFFFF'FFF0;
-/// An exclusive access is lost to a write in the same granule of the monitor: a cache line.
-constexpr std::uintptr_t monitor_granule = 32;
 
 // What orders accesses beside locks and words: keys of RaceDetector.
 constexpr char start_key = 0, event_key = 0, software_interrupt_key = 0;
 
 std::string name_of(const hal_lock& lock) {
   return lock.name ? "lock '" + std::string(lock.name) + "'" : "a lock without name";
-}
-
-std::uintptr_t granule(const volatile std::uint32_t* word) {
-  return reinterpret_cast<std::uintptr_t>(word) / monitor_granule;
 }
 
 }  // namespace
@@ -130,7 +124,7 @@ bool Cpu::beside_other() const {
 
 bool Cpu::is_deaf() const {
   if (state_ != State::running) return state_ != State::waiting || !entry_;
-  return (awaits_event_ || awaited_lock_) && !event_ && !interruptible();
+  return (awaits_event_ || awaited_lock_) && !event_ && !irq_.interruptible();
 }
 
 std::string Cpu::doing() const {
@@ -143,7 +137,7 @@ std::string Cpu::doing() const {
            " has held since " + vp::format_time(holder.since_ps);
   }
   if (awaits_event_)
-    return who + " waits for an event" + (interruptible() ? "" : " with IRQ masked");
+    return who + " waits for an event" + (irq_.interruptible() ? "" : " with IRQ masked");
   return who + (asleep ? " waits for an interrupt" : " runs");
 }
 
@@ -178,7 +172,7 @@ void Cpu::check_deadlock() {
 void Cpu::doze_until_event() {
   while (!has_woken()) {
     check_deadlock();
-    doze(std::max(deadline_ps_, now_ps()),
+    doze(std::max(deadline_.ps(), now_ps()),
          [](const void* cpu) { return static_cast<const Cpu*>(cpu)->has_woken(); });
     if (!has_woken())
       meet_deadline(awaited_lock_ ? "it waits for a lock" : "it waits for an event");
@@ -234,24 +228,21 @@ void Cpu::store_release(volatile std::uint32_t* word, std::uint32_t value) {
 // What load_exclusive() of the other core saw is gone.
 void Cpu::put(volatile std::uint32_t* word, std::uint32_t value) {
   *word = value;
-  for (Cpu* core : cores_->all) {
-    if (core->monitor_.word && granule(core->monitor_.word) == granule(word)) core->monitor_ = {};
-  }
+  for (Cpu* core : cores_->all) core->monitor_.note_write(word);
   cores_->races.release(number_, word);
 }
 
 std::uint32_t Cpu::load_exclusive(const volatile std::uint32_t* word) {
   check_word("hal_load_exclusive", word);
-  monitor_ = {word, load_acquire(word)};
-  return monitor_.value;
+  const std::uint32_t value = load_acquire(word);
+  monitor_.reserve(word, value);
+  return value;
 }
 
-// The other core's stores outside the HAL are not observed; they show only as a changed word.
 bool Cpu::store_exclusive(volatile std::uint32_t* word, std::uint32_t value) {
   check_word("hal_store_exclusive", word);
   barrier();
-  const bool stored = monitor_.word == word && monitor_.value == *word;
-  monitor_ = {};
+  const bool stored = monitor_.take(word);
   if (stored) put(word, value);
   return stored;
 }

@@ -55,6 +55,35 @@ class RaceDetector {
   Cells cells_;  ///< by first byte; none overlaps another
 };
 
+/// The exclusive monitor of a core: whether the word that it reserved may have been written since.
+class ExclusiveMonitor {
+ public:
+  /// Reserves `word`, which held `value`.
+  void reserve(const volatile std::uint32_t* word, std::uint32_t value) {
+    word_ = word;
+    value_ = value;
+  }
+  void clear() { word_ = nullptr; }
+  /// A core wrote `word`: a reservation of the same cache line is lost.
+  void note_write(const volatile std::uint32_t* word) {
+    if (word_ && line_of(word_) == line_of(word)) clear();
+  }
+  /// `word` is reserved, and holds what it did then: stores outside the HAL, which are not
+  /// observed, show only as a changed word. Ends the reservation.
+  bool take(const volatile std::uint32_t* word) {
+    return std::exchange(word_, nullptr) == word && value_ == *word;
+  }
+
+ private:
+  static std::uintptr_t line_of(const volatile std::uint32_t* word) {
+    constexpr std::uintptr_t granule = 32;
+    return reinterpret_cast<std::uintptr_t>(word) / granule;
+  }
+
+  const volatile std::uint32_t* word_ = nullptr;  ///< null: nothing is reserved
+  std::uint32_t value_ = 0;
+};
+
 /// What the cores of a processor share.
 struct Cores {
   std::vector<Cpu*> all;  ///< by number

@@ -1,9 +1,7 @@
-#include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <cmath>
 #include <cstring>
 
 namespace ps {
@@ -12,8 +10,6 @@ using namespace vp::literals;
 
 namespace {
 
-constexpr vp::Range<std::uint32_t> cycles_range{0, 1'000'000};
-constexpr double fs_per_ns = 1e6;
 /// The first core's time-out ends what the second one does for too long.
 constexpr std::uint64_t longest_run_ps = 1'000'000_s;
 
@@ -38,43 +34,6 @@ const char* answer_text(tlm::tlm_response_status status) {
 
 Cpu* Cpu::running_ = nullptr;
 
-Cpu::Settings::Settings()
-    : stack_size("stack_size", 8_MiB, vp::Unit::bytes, {64_KiB, 1_GiB}, vp::Source::decision,
-                 "stack of the program"),
-      quantum("quantum", 100_us, vp::Unit::time, {0, 1000_s}, vp::Source::decision,
-              "how far the program may run ahead of the simulation; no result depends on it"),
-      timeout("timeout", 10_s, vp::Unit::time, {1_us, 1'000'000_s}, vp::Source::decision,
-              "the run ends if the program neither ends nor asks for an input for so long"),
-      host_timeout("host_timeout", 10_s, vp::Unit::time, {100_ms, 1'000'000_s},
-                   vp::Source::decision,
-                   "the run ends if the program takes so much of the host's processor time, or "
-                   "waits so long, while no simulated time passes"),
-      loop_blocks("loop_blocks", 100'000, vp::Unit::none, {1'000, 1'000'000'000},
-                  vp::Source::decision,
-                  "basic blocks without HAL call or annotation after which time jumps to what "
-                  "happens next"),
-      interrupt_entry("interrupt_entry", 100, vp::Unit::cycles, cycles_range, vp::Source::published,
-                      "from nIRQ to the handler, warm caches: below 100 (jblopen.com, Zynq-7000)"),
-      interrupt_exit("interrupt_exit", 60, vp::Unit::cycles, cycles_range, vp::Source::assumed,
-                     "from the handler back to the program"),
-      barrier_cycles("barrier_cycles", 20, vp::Unit::cycles, cycles_range, vp::Source::assumed,
-                     "a data synchronisation barrier"),
-      cache_call_cycles("cache_call_cycles", 60, vp::Unit::cycles, cycles_range,
-                        vp::Source::assumed, "a cache operation before its first line"),
-      cache_line_cycles("cache_line_cycles", 20, vp::Unit::cycles, cycles_range,
-                        vp::Source::assumed, "a line of 32 bytes in both cache levels"),
-      cache_all_cycles("cache_all_cycles", 100'000, vp::Unit::cycles, cycles_range,
-                       vp::Source::assumed,
-                       "an operation on both cache levels as a whole: 17408 lines, by set and way"),
-      uncached_scale("uncached_scale", 10, vp::Unit::none, {1, 1'000}, vp::Source::assumed,
-                     "how much longer code takes while the data caches are off"),
-      block_cycles("block_cycles", 0, vp::Unit::cycles, {0, 1'000}, vp::Source::decision,
-                   "what each basic block of the program's own code takes, beside the work that it "
-                   "counts; 0: by its instructions, or nothing where the program counts its work"),
-      code_scale("code_scale", 1, vp::Unit::none, {0, 1'000}, vp::Source::decision,
-                 "how long the code of a program takes that does not count its work, as a multiple "
-                 "of what the profile says; 0: no time") {}
-
 Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock) : Cpu(name, clock, nullptr) {}
 
 Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock, Cpu& first) : Cpu(name, clock, &first) {}
@@ -84,7 +43,7 @@ Cpu::~Cpu() = default;
 Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock, Cpu* first)
     : sc_module(name),
       asleep("asleep", 1, first != nullptr),
-      own_settings_(first ? nullptr : std::make_unique<Settings>()),
+      own_settings_(first ? nullptr : std::make_unique<CpuSettings>()),
       settings_(first ? first->settings_ : *own_settings_),
       cores_(first ? first->cores_ : std::make_shared<Cores>()),
       number_(static_cast<unsigned>(cores_->all.size())),
@@ -102,20 +61,11 @@ Cpu::Cpu(sc_core::sc_module_name name, vp::Clock& clock, Cpu* first)
 }
 
 void Cpu::load(Program& program, const CostTable& costs) {
-  const hal_program& description = program.description();
-  work_.clear();
-  for (std::uint32_t i = 0; i < description.work_count; ++i) {
-    const WorkCost& cost = costs.at(description.work[i], description.name);
-    Work work;
-    work.cycles = static_cast<LocalTime::Wide>(
-        std::llround(cost.cycles * static_cast<double>(LocalTime::one_cycle)));
-    work.stall_fs = static_cast<LocalTime::Wide>(std::llround(cost.stall_ns * fs_per_ns));
-    work_.push_back(work);
-  }
+  work_.load(program.description(), costs);
   program_ = &program;
-  if (!program.path().empty()) code_.emplace(&description);
+  if (!program.path().empty()) code_.emplace(&program.description());
   cost_profile_ = costs.profile();
-  profile_scale_ = costs.code_scale();
+  code_scale_ = costs.code_scale();
   if (number_ != 0) return;
   for (Cpu* core : cores_->all) {
     if (core != this) core->load(program, costs);
@@ -147,7 +97,7 @@ void Cpu::run() {
       activity_.idle(now_ps());
       if (moment_listener_) moment_listener_(Moment::call_over);
     }
-    set_deadline(now_ps() + (number_ == 0 ? settings_.timeout.get() : longest_run_ps));
+    deadline_.set_timeout(now_ps() + (number_ == 0 ? settings_.timeout.get() : longest_run_ps));
     follow_clock();
     start_ahead();
     exit_code_ = call_program();
@@ -234,7 +184,7 @@ std::string Cpu::where() const {
   if (number != Activity::none) {
     text += std::string(" in function '") + description.functions[number] + "'";
   }
-  if (in_handler_now_) text += " in the interrupt handler";
+  if (irq_.in_handler()) text += " in the interrupt handler";
   const std::string place = program_counter();
   if (number_ != 0) text += std::string(" on ") + basename();
   return text + " of program '" + description.name + "'" + (place.empty() ? "" : ", ") + place;
@@ -249,46 +199,15 @@ void Cpu::check() const {
   }
 }
 
-std::vector<WorkCount> Cpu::work() const {
-  std::vector<WorkCount> counts;
-  for (std::size_t i = 0; i < work_.size(); ++i) {
-    const Work& work = work_[i];
-    counts.push_back({program_->description().work[i], work.count,
-                      static_cast<double>(work.cycles) / static_cast<double>(LocalTime::one_cycle),
-                      static_cast<double>(work.stall_fs) / fs_per_ns});
-  }
-  return counts;
-}
-
-Cpu::Counted Cpu::counted() const {
-  Counted sum;
-  for (const Work& work : work_) {
-    sum.cycles += work.cycles * work.count;
-    sum.stall_fs += work.stall_fs * work.count;
-  }
-  sum.cycles += code_cycles_;
-  return sum;
-}
-
 void Cpu::nothing_runs(const char* call) {
   if (vp::FaultTrap::can_leave()) vp::FaultTrap::leave(vp::Fault::Kind::no_hal, call);
   throw vp::ProtocolError(std::string(call) + "() was called, but no program runs");
 }
 
-Answerer Cpu::answerer_at(std::uint32_t address) const {
-  return device_ ? device_(address) : Answerer{};
-}
-
-std::string Cpu::device_at(std::uint32_t address) const {
-  const Answerer answerer = answerer_at(address);
-  if (answerer.name.empty()) return {};
-  return " (" + answerer.name + (answerer.is_modelled ? ")" : ": not modelled)");
-}
-
 // The general way: anything may be behind the sockets.
 void Cpu::transport(bool read, std::uint32_t address, std::uint32_t& value) {
   if (address % sizeof data_ != 0) {
-    fail("data abort: access to " + vp::hex(address) + device_at(address) +
+    fail("data abort: access to " + vp::hex(address) + surroundings.name_at(address) +
          ", which is not a multiple of 4");
   }
   std::memcpy(data_, &value, sizeof data_);
@@ -309,9 +228,9 @@ void Cpu::transport(bool read, std::uint32_t address, std::uint32_t& value) {
 void Cpu::refuse(tlm::tlm_response_status status, bool read, std::uint32_t address) {
   // A block that the chip has and the platform has not is no place where nothing answers.
   const std::string answer =
-      answerer_at(address).is_modelled ? ": " + std::string(answer_text(status)) : "";
+      surroundings.device(address).is_modelled ? ": " + std::string(answer_text(status)) : "";
   fail(std::string("data abort: ") + (read ? "read of " : "write to ") + vp::hex(address) +
-       device_at(address) + answer);
+       surroundings.name_at(address) + answer);
 }
 
 }  // namespace ps

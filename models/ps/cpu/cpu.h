@@ -16,54 +16,30 @@
 
 #include <hal/hal.h>
 #include <ps/cpu/console.h>
+#include <ps/cpu/cores.h>
+#include <ps/cpu/cpu_settings.h>
 #include <ps/cpu/cpu_time.h>
+#include <ps/cpu/deadline.h>
+#include <ps/cpu/irq.h>
 #include <ps/cpu/pointer_access.h>
 #include <ps/cpu/poll.h>
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_watch.h>
+#include <ps/cpu/surroundings.h>
+#include <ps/cpu/test_bench.h>
+#include <ps/cpu/wait_signs.h>
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/counter.h>
 #include <vp/error.h>
 #include <vp/mm_link.h>
-#include <vp/parameter.h>
 #include <vp/probe.h>
 #include <vp/register_route.h>
 #include <vp/signal.h>
 
 namespace ps {
 
-/// The environment of a program in a run: gives it inputs and options, takes its results. The
-/// platform implements it. Times are simulation times of the call in ps; the calls take none.
-class TestBench {
- public:
-  virtual ~TestBench() = default;
-
-  /// When the next input comes, or when it is known that no more come. The program asks for it now
-  /// and sleeps until then.
-  virtual std::uint64_t next_frame_ps(std::uint64_t now_ps) { return now_ps; }
-  /// The next input, or null when the run is over. Valid until the next call.
-  virtual const hal_frame* next_frame(std::uint64_t now_ps) = 0;
-  /// Takes the result of a frame; `data` is valid during the call only. False: no result, the
-  /// program gave up the frame.
-  virtual bool publish(std::uint32_t kind, const void* data, std::size_t size,
-                       std::uint64_t now_ps) = 0;
-  /// The value of the program's option number `option`.
-  virtual double option(std::uint32_t option, const hal_option_info& info) = 0;
-  /// What is in the file that this option names. Valid until the run ends; empty: it names none.
-  virtual std::string_view option_data(std::uint32_t /*option*/) { return {}; }
-  /// The value that xparameters.h would give `name` ("AXI_GPIO_0_BASEADDR"), if any.
-  virtual std::optional<std::uint32_t> xparameter(const char* /*name*/) { return std::nullopt; }
-};
-
 class DmaAllocator;
-
-/// What a program reaches at an address.
-struct Answerer {
-  std::string name;         ///< for messages; empty: nothing is there
-  bool is_modelled = true;  ///< false: the chip has a block there, and the platform has none
-};
-struct Cores;
 
 /// A core without instruction set: one thread that runs a program natively and gives it the HAL.
 ///
@@ -103,26 +79,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   vp::TextSignal function_name{"function_name", [this] { return name_of_function(); }, {&function}};
   vp::TextSignal handler_name{"handler_name", [this] { return name_of_handler(); }, {&in_handler}};
 
-  struct Settings {
-    Settings();
-
-    vp::Parameter<std::uint64_t> stack_size;
-    vp::Parameter<std::uint64_t> quantum;
-    vp::Parameter<std::uint64_t> timeout;
-    vp::Parameter<std::uint64_t> host_timeout;
-    vp::Parameter<std::uint64_t> loop_blocks;
-    vp::Parameter<std::uint32_t> interrupt_entry;
-    vp::Parameter<std::uint32_t> interrupt_exit;
-    vp::Parameter<std::uint32_t> barrier_cycles;
-    vp::Parameter<std::uint32_t> cache_call_cycles;
-    vp::Parameter<std::uint32_t> cache_line_cycles;
-    vp::Parameter<std::uint32_t> cache_all_cycles;
-    vp::Parameter<double> uncached_scale;
-    vp::Parameter<std::uint32_t> block_cycles;
-    vp::Parameter<double> code_scale;
-  };
   /// Of all cores.
-  const Settings& settings() const { return settings_; }
+  const CpuSettings& settings() const { return settings_; }
 
   vp::Counter interrupts{"interrupts", "interrupts taken"};
   vp::Counter polls{"polls", "reads made by hal_poll_until_changed"};
@@ -144,29 +102,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::uintptr_t stack_end() const { return stack_end_; }
   /// First byte and one past the last of the stack in the DDR; {0, 0}: it is elsewhere.
   std::pair<std::uintptr_t, std::uintptr_t> stack() const;
-  /// Names the device at an address.
-  void name_devices(std::function<Answerer(std::uint32_t)> device) { device_ = std::move(device); }
-  /// Describes a register's value, "axi_dma_0.MM2S_DMASR: 0x00000002 (Idle 1)", or returns "".
-  void describe_registers(
-      std::function<std::string(std::uint32_t address, std::uint32_t value)> d) {
-    describe_register_ = std::move(d);
-  }
-  /// Why nIRQ is low: the interrupt, and since when its line asks for it.
-  struct Request {
-    std::string text;
-    std::uint64_t since_ps = 0;
-  };
-  void describe_requests(std::function<Request()> describe) {
-    describe_request_ = std::move(describe);
-  }
-  /// Says what keeps the program waiting, as the end of a message ("; interrupt 61 …"), or "".
-  struct Wait {
-    bool irq_masked;
-    std::optional<std::uint32_t> polled;  ///< address of the register that it looks at
-  };
-  void explain_waits(std::function<std::string(const Wait&)> explain) {
-    explain_wait_ = std::move(explain);
-  }
+  /// What messages name. Set it before the simulation starts.
+  Surroundings surroundings;
   enum class CacheCall {
     flush,
     invalidate,
@@ -192,8 +129,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// Calls `look` once, on the program's stack, when the simulation reaches `ps`: in the HAL call
   /// in which that time passes. No time or result depends on it. Set before the simulation starts.
   void call_at(std::uint64_t ps, std::function<void()> look) {
-    call_at_ps_ = ps;
-    called_at_ = std::move(look);
+    deadline_.want_look(ps, std::move(look));
   }
   /// Replaces the processor's own program_counter(), for a program that only represents one that
   /// runs elsewhere.
@@ -246,13 +182,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// Notified when the program ends, however.
   const sc_core::sc_event& ended() const { return ended_; }
 
-  std::vector<WorkCount> work() const;
-  /// The cost of all work that was counted so far.
-  struct Counted {
-    LocalTime::Wide cycles = 0;  ///< in 2^-20 cycles
-    LocalTime::Wide stall_fs = 0;
-  };
-  Counted counted() const;
+  /// The work that it counted, and its code.
+  const WorkMeter& work() const { return work_; }
   /// Reads among `polls` that were not made, for performance reports.
   std::uint64_t skipped_polls() const { return skipped_polls_; }
   const Activity& activity() const { return activity_; }
@@ -315,12 +246,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void access_by_pointer(PointerAccess& access);
 
  private:
-  struct Work {
-    LocalTime::Wide cycles = 0;    ///< of one unit, in 2^-20 cycles
-    LocalTime::Wide stall_fs = 0;  ///< of one unit
-    LocalTime::Wide most_fs = 0;   ///< of one unit, rounded up
-    std::uint64_t count = 0;
-  };
   enum class Interrupts { take, leave };
   /// Reads of a poll that were not made, and the one that is on its way.
   struct Skipped {
@@ -352,13 +277,13 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void before_change(vp::Clock& clock) override;
   void after_change(vp::Clock&) override {}
 
-  // Time: cpu_time.cpp; interrupts: cpu_interrupt.cpp
+  // Time: cpu_catch_up.cpp; interrupts: cpu_interrupt.cpp
   std::uint64_t now_ps() const { return scheduler_.now_ps(); }
   static std::uint64_t progress(const void* cpu);
   static bool irq_is_low(const void* cpu);
   /// When what was done so far will be over.
   std::uint64_t reached_ps() const {
-    return std::max(now_ps(), access_end_ps_) + (in_handler_now_ ? 0 : timeline_.total_ps());
+    return std::max(now_ps(), access_end_ps_) + (irq_.in_handler() ? 0 : timeline_.total_ps());
   }
   void spend_cycles(std::uint64_t cycles);
   void spend_blocks();
@@ -392,8 +317,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void start_ahead();
   bool far_ahead();
   bool interrupt_pending() const { return n_irq.bound() && !n_irq.read(); }
-  bool interruptible() const { return !masked_ && !in_handler_now_; }
-  bool interrupt_due() const { return interruptible() && interrupt_pending(); }
+  bool interrupt_due() const { return irq_.interruptible() && interrupt_pending(); }
   void take_interrupts() {
     while (interrupt_due()) run_handler();
   }
@@ -403,7 +327,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   static bool on_fault(std::uintptr_t address, void* context);
   static void make_access(PointerAccess& access);
   std::uint32_t access_part(bool read, std::uint32_t address, unsigned bytes, std::uint32_t value);
-  std::string reason_of_wait(bool polls) const;
   void sleep();
   void sleep_until(std::uint64_t ps);
   void doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition);
@@ -430,27 +353,22 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void on_bus(std::uint64_t start_ps, bool read, std::uint32_t address, Transfer transfer);
   void transport(bool read, std::uint32_t address, std::uint32_t& value);
   [[noreturn]] void refuse(tlm::tlm_response_status status, bool read, std::uint32_t address);
-  Answerer answerer_at(std::uint32_t address) const;
-  /// " (name)" for messages; empty if nothing is there.
-  std::string device_at(std::uint32_t address) const;
   [[noreturn]] void stop(std::exception_ptr error);
   [[noreturn]] void fail(const std::string& problem);
   [[noreturn]] static void nothing_runs(const char* call);
-  void set_deadline(std::uint64_t ps) {
-    timeout_ps_ = ps;
-    deadline_ps_ = std::min(ps, call_at_ps_);
-  }
   void meet_deadline(const char* what, const std::string& hint = {});
   MachineCode::Reach reach() const;
   [[noreturn]] void end_at_limit(const std::string& hint, bool sleeps);
   [[noreturn]] void rest();
-  std::string last_look() const;
+  std::string signs_of_waiting() const {
+    return signs_.text(surroundings, irq_.masked_by_program());
+  }
   [[noreturn]] void break_off(const std::string& problem);
   void end(State state);
   void freeze();
 
-  std::unique_ptr<Settings> own_settings_;  ///< of the first core
-  const Settings& settings_;
+  std::unique_ptr<CpuSettings> own_settings_;  ///< of the first core
+  const CpuSettings& settings_;
   std::shared_ptr<Cores> cores_;
   const unsigned number_;
   vp::Clock& clock_;
@@ -458,11 +376,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   Program* program_ = nullptr;
   TestBench* bench_ = nullptr;
   DmaAllocator* dma_memory_ = nullptr;
-  std::function<Answerer(std::uint32_t)> device_;
-  std::function<std::string(std::uint32_t, std::uint32_t)> describe_register_;
-  std::function<Request()> describe_request_;
   std::function<std::string()> locate_program_;
-  std::function<std::string(const Wait&)> explain_wait_;
   std::string cost_profile_;
   CacheListener cache_listener_;
   MomentListener moment_listener_;
@@ -478,11 +392,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   sc_core::sc_event ended_;
   sc_core::sc_event never_;
 
-  std::vector<Work> work_;
-  /// What basic blocks took, each block_cycles or by what it is made of, in 2^-20 cycles.
-  LocalTime::Wide code_cycles_ = 0;
-  std::uint64_t unit_cycles_ = 0;  ///< of a block, or unit of the charge, in 2^-20 cycles
-  double profile_scale_ = 1;       ///< of code, by the cost table
+  WorkMeter work_;
+  double code_scale_ = 1;  ///< by the cost table
   std::uintptr_t stack_end_ = 0;
   std::size_t open_functions_ = 0;  ///< entered by the program, ahead of time
   std::size_t open_before_handler_ = 0;
@@ -494,22 +405,14 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   Timeline timeline_;                 ///< what the program does after it
   LocalTime::Wide ahead_fs_ = 0;      ///< work counted since the last settling, rounded up
   std::uint64_t ahead_limit_fs_ = 0;  ///< 0: not looked at yet
-  std::uint64_t timeout_ps_ = 0;
-  std::uint64_t call_at_ps_ = ~std::uint64_t{0};
-  std::function<void()> called_at_;
-  std::uint64_t deadline_ps_ = 0;  ///< the first of both
+  Deadline deadline_;
   std::uint64_t dozes_since_ps_ = 0;
-  unsigned unacknowledged_ = 0;                ///< handlers in a row that left a request pending
-  std::uint64_t first_unacknowledged_ps_ = 0;  ///< when the first of them returned
   bool slept_unmasked_ = false;
 
-  hal_interrupt_handler handler_ = nullptr;
-  void* handler_context_ = nullptr;
+  Irq irq_;
   void (*after_interrupt_)(void) = nullptr;
   bool caches_off_ = false;      ///< of the first core: for both
   bool warned_of_long_ = false;  ///< an access of 8 bytes by a pointer to a register
-  bool masked_ = true;
-  bool in_handler_now_ = false;
 
   void (*entry_)(void) = nullptr;  ///< of the second core
   sc_core::sc_event start_;
@@ -517,35 +420,14 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   bool event_ = false;  ///< the event register
   bool awaits_event_ = false;
   const hal_lock* awaited_lock_ = nullptr;
-  /// The exclusive monitor: what load_exclusive() saw last; null when it is open.
-  struct Monitor {
-    const volatile std::uint32_t* word = nullptr;
-    std::uint32_t value = 0;
-  } monitor_;
+  ExclusiveMonitor monitor_;
 
   vp::RegisterRoutes routes_{m_axi};
   PollSkip* skip_ = nullptr;  ///< while it runs
   std::uint64_t skipped_polls_ = 0;
   tlm::tlm_generic_payload payload_;
   unsigned char data_[4] = {};
-  /// The register that the program read last, and its value.
-  struct Look {
-    std::uint32_t address = 0, value = 0;
-    enum class By { none, read, poll } by = By::none;
-    std::uint64_t again = 0;    ///< reads of it, one after the other, since the first, or to come
-    std::uint32_t changed = 0;  ///< bits that differed between two of them
-
-    void note_read(std::uint32_t of, std::uint32_t saw) {
-      if (by != By::read || address != of) {
-        *this = {of, saw, By::read};
-        return;
-      }
-      ++again;
-      changed |= value ^ saw;
-      value = saw;
-    }
-  } last_look_;
-  bool loops_ = false;  ///< time passes because of a loop without a call of the HAL
+  WaitSigns signs_;
 
   vp::FaultTrap trap_;
   HostWatch watch_;

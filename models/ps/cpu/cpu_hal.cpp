@@ -1,10 +1,9 @@
 // The native back end of the HAL: each function goes to the processor whose program runs. What
-// they do, but for those that only make time pass (cpu_time.cpp).
+// they do, but for those that only make time pass (cpu_catch_up.cpp).
 #include <hal/hal.h>
 #include <hal/native_program.h>
 #include <hal/option_data.h>
 
-#include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/program_watch.h>
 #include <ps/memory/memory.h>
@@ -100,7 +99,7 @@ const hal_frame* Cpu::next_frame() {
   scheduler_.forget_horizon();
   if (next) {
     frame = frame + 1;
-    set_deadline(now_ps() + settings_.timeout);
+    deadline_.set_timeout(now_ps() + settings_.timeout);
     start_ahead();
   }
   return next;
@@ -148,7 +147,7 @@ std::string Cpu::name_of_function() const {
 std::string Cpu::name_of_handler() const {
   if (!in_handler) return {};
   const std::string name =
-      code_ ? code_->symbol(reinterpret_cast<std::uintptr_t>(handler_)) : std::string();
+      code_ ? code_->symbol(reinterpret_cast<std::uintptr_t>(irq_.handler())) : std::string();
   return name.empty() ? "handler" : name;
 }
 

@@ -5,29 +5,20 @@
 #include <string>
 #include <utility>
 
-#include <ps/cpu/cores.h>
 #include <vp/report.h>
 #include <vp/unit.h>
 
 namespace ps {
 
-namespace {
-
-/// Handlers in a row after which an interrupt is taken to be unacknowledged (decision).
-constexpr unsigned many_handlers = 1'000;
-
-}  // namespace
-
 void Cpu::connect_interrupt(hal_interrupt_handler handler, void* context) {
   catch_up();
-  handler_ = handler;
-  handler_context_ = context;
+  irq_.connect(handler, context);
 }
 
 bool Cpu::enable_interrupt(bool enable) {
   catch_up();
-  const bool was_enabled = !masked_;
-  masked_ = !enable;
+  const bool was_enabled = !irq_.masked();
+  irq_.mask(!enable);
   take_interrupts();
   return was_enabled;
 }
@@ -41,10 +32,10 @@ void Cpu::on_change(vp::SignalBase&, std::uint32_t) {
 }
 
 void Cpu::run_handler() {
-  if (!handler_) fail("an interrupt is pending and IRQ is unmasked, but no handler is connected");
+  if (!irq_.handler())
+    fail("an interrupt is pending and IRQ is unmasked, but no handler is connected");
   ++interrupts;
-  masked_ = true;
-  in_handler_now_ = true;
+  irq_.enter();
   in_handler = true;
   activity_.enter_handler();
   open_before_handler_ = open_functions_;
@@ -65,10 +56,9 @@ void Cpu::run_handler() {
   open_before_handler_ = 0;
   activity_.leave_handler();
   in_handler = false;
-  in_handler_now_ = false;
-  masked_ = false;
+  irq_.leave();
   event_ = true;
-  monitor_ = {};
+  monitor_.clear();
   check_acknowledged();
   if (after_interrupt_) leave_interrupt();
 }
@@ -87,7 +77,7 @@ void Cpu::leave_interrupt() {
 }
 
 void Cpu::wait_for_interrupt() {
-  if (!masked_ && !in_handler_now_ && !slept_unmasked_) {
+  if (irq_.interruptible() && !slept_unmasked_) {
     slept_unmasked_ = true;
     vp::warn(*this, "/markervp/cpu/sleeps_unmasked",
              "hal_wait_for_interrupt() with IRQ unmasked: an interrupt that comes between the last "
@@ -116,30 +106,26 @@ void Cpu::doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition) 
 
 void Cpu::sleep() {
   while (!interrupt_pending()) {
-    doze(std::max(deadline_ps_, now_ps()), irq_is_low);
+    doze(std::max(deadline_.ps(), now_ps()), irq_is_low);
     if (!interrupt_pending())
-      meet_deadline("it waits for an interrupt, and none came", reason_of_wait(false));
+      meet_deadline("it waits for an interrupt, and none came",
+                    surroundings.wait_reason({irq_.masked_by_program(), {}}));
   }
 }
 
 void Cpu::check_acknowledged() {
-  if (!interrupt_pending()) {
-    unacknowledged_ = 0;
-    return;
-  }
-  if (++unacknowledged_ == 1) first_unacknowledged_ps_ = now_ps();
-  if (unacknowledged_ != many_handlers) return;
-  const Request request = describe_request_ ? describe_request_() : Request{};
+  if (!irq_.leaves_too_many(interrupt_pending(), now_ps())) return;
+  const Surroundings::Request request = surroundings.request();
   const std::string which = request.text.empty() ? "" : " (" + request.text + ")";
-  const std::string so_often = std::to_string(many_handlers) + " times in a row";
-  if (request.since_ps <= first_unacknowledged_ps_) {
+  const std::string so_often = std::to_string(Irq::many_handlers) + " times in a row";
+  if (request.since_ps <= irq_.pending_since_ps()) {
     vp::warn(*this, "/markervp/cpu/not_acknowledged",
              "the interrupt handler has returned " + so_often + " with an interrupt still pending" +
                  which + ": acknowledge it at the device, and end it at the interrupt controller");
   } else {
     vp::warn(*this, "/markervp/cpu/overrun",
              "interrupts come faster than they are handled: the handler has returned " + so_often +
-                 ", since " + vp::format_time(first_unacknowledged_ps_) +
+                 ", since " + vp::format_time(irq_.pending_since_ps()) +
                  ", with the next one pending" + which +
                  ": let them come more rarely, or do less in the handler");
   }

@@ -119,7 +119,7 @@ hal_poll_result Cpu::poll_until_changed(std::uint32_t address, std::uint32_t pre
                                         std::uint32_t cycles, std::uint32_t limit) {
   hal_poll_result result{previous, 0, false};
   while (result.polls < limit && !result.changed) {
-    last_look_ = {address, previous, Look::By::poll, limit - result.polls};
+    signs_.note_poll(address, previous, limit - result.polls);
     catch_up();
     Skipped skipped = skip_reads(address, previous, cycles, limit - result.polls);
     result.polls += static_cast<std::uint32_t>(skipped.reads);
@@ -135,7 +135,7 @@ hal_poll_result Cpu::poll_until_changed(std::uint32_t address, std::uint32_t pre
     result.changed = result.value != previous;
     spend_cycles(cycles);
   }
-  if (result.changed) last_look_ = {address, result.value, Look::By::read};
+  if (result.changed) signs_.end_poll(address, result.value);
   return result;
 }
 
@@ -148,13 +148,13 @@ Cpu::Skipped Cpu::skip_reads(std::uint32_t address, std::uint32_t previous, std:
   vp::RegisterRoute* route = poll_elision_ ? routes_.find(address) : nullptr;
   if (!route || route->stable_until_ps() <= start || route->peek() != previous) return none;
   const auto read_ps = route->read_time_ps();
-  if (!read_ps || *read_ps == 0 || start >= deadline_ps_ || hertz_ != clock_.frequency_hz() ||
+  if (!read_ps || *read_ps == 0 || start >= deadline_.ps() || hertz_ != clock_.frequency_hz() ||
       route->arrival_ps(start) == vp::Clock::never) {
     return none;
   }
   const PollGrid grid(*route, start, *read_ps, cycles, local_time_, hertz_);
-  const std::uint64_t last = grid.one_before(deadline_ps_, limit - 1);
-  PollSkip skip(*route, grid, last, scheduler_, interruptible() ? irq_is_low : nullptr, this);
+  const std::uint64_t last = grid.one_before(deadline_.ps(), limit - 1);
+  PollSkip skip(*route, grid, last, scheduler_, irq_.interruptible() ? irq_is_low : nullptr, this);
   {
     const Shown shown(skip_, skip);
     skip.run();

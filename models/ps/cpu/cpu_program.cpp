@@ -1,5 +1,4 @@
 // The program's own code: how it is called, what it does without the HAL, and how it fails.
-#include <ps/cpu/cores.h>
 #include <ps/cpu/cpu.h>
 #include <sys/mman.h>
 #include <vp/error.h>
@@ -61,20 +60,18 @@ int Cpu::call_program() {
   ProgramWatch::end();
   if (number_ == 0) LineGuard::program_is_over();
   if (fault) report(*fault);
-  if (in_handler_now_)
+  if (irq_.in_handler())
     break_off("the interrupt handler never returned: do not leave it by longjmp()");
   return call.result;
 }
 
 // A second core runs the code of the first one's program.
 void Cpu::start_charging() {
-  constexpr double one_cycle = static_cast<double>(LocalTime::one_cycle);
   CodeCharge* const charge = program_->charge();
-  const double scale = settings_.code_scale * profile_scale_;
+  const double scale = settings_.code_scale * code_scale_;
   const bool by_code = charge && settings_.block_cycles == 0 && scale > 0;
-  unit_cycles_ = by_code ? static_cast<std::uint64_t>(
-                               std::llround(scale * one_cycle / MachineCode::units_per_cycle))
-                         : settings_.block_cycles * LocalTime::one_cycle;
+  work_.set_code_cycles(by_code ? scale / MachineCode::units_per_cycle
+                                : settings_.block_cycles.get());
   ProgramWatch::charge = by_code ? charge : nullptr;
   if (charge) charge->start(by_code && !ProgramWatch::block_counts);
   if (const auto [first, end] = stack(); first != 0) {
@@ -106,7 +103,7 @@ void Cpu::check_memory() const {
 // The program is over: what it did ahead of time passes, but no handler runs any more.
 void Cpu::break_off(const std::string& problem) {
   ProgramWatch::end();
-  masked_ = true;
+  irq_.mask(true);
   misuse(problem);
 }
 
@@ -139,8 +136,8 @@ void Cpu::report(const vp::Fault& fault) {
             settings_.stack_size.name() + ")";
   } else if (fault.address_known && fault.address <= ~std::uint32_t{0}) {
     const auto address = static_cast<std::uint32_t>(fault.address);
-    const Answerer answerer = answerer_at(address);
-    text += device_at(address);
+    const Answerer answerer = surroundings.device(address);
+    text += surroundings.name_at(address);
     if (!answerer.name.empty() && answerer.is_modelled)
       text +=
           ", a device address: dereference no pointer to it, use hal_read32() and hal_write32()";
@@ -157,7 +154,7 @@ bool Cpu::on_fault(std::uintptr_t address, void* context) {
   constexpr std::uintptr_t first_register = 0x4000'0000;  // UG585 table 4-1
   if (LineGuard::on_fault(address, context)) return true;
   if (!ProgramWatch::runs || !running_ || address < first_register || address > ~std::uint32_t{0} ||
-      running_->answerer_at(static_cast<std::uint32_t>(address)).name.empty()) {
+      running_->surroundings.device(static_cast<std::uint32_t>(address)).name.empty()) {
     return false;
   }
   return PointerAccess::divert(context, address, &Cpu::make_access);
@@ -180,7 +177,7 @@ std::uint32_t Cpu::access_part(bool read, std::uint32_t address, unsigned bytes,
 void Cpu::access_by_pointer(PointerAccess& pointer) {
   constexpr unsigned word_bytes = 4, long_bytes = 8;
   const auto address = static_cast<std::uint32_t>(pointer.address);
-  const std::string where = vp::hex(address) + device_at(address);
+  const std::string where = vp::hex(address) + surroundings.name_at(address);
   PointerAccess::Move move{};
   if (const char* const why = pointer.decode(move)) {
     misuse("the program accesses " + where + " with " + why +
@@ -211,7 +208,7 @@ void Cpu::call_handler() {
   std::string thrown;
   try {
     const ProgramWatch::ProgramCode code;
-    handler_(handler_context_);
+    irq_.call_handler();
     return;
   } catch (const sc_core::sc_unwind_exception&) {
     throw;
@@ -238,14 +235,14 @@ __attribute__((no_sanitize("address", "undefined"))) void Cpu::look_at(const voi
 void Cpu::notice_loop(unsigned before, bool is_empty) {
   constexpr unsigned long_loop = 100;  // looks: it computes no more, but waits
   const std::uint64_t taken = interrupts;
-  loops_ = before >= long_loop || is_empty;
+  signs_.set_loops(before >= long_loop || is_empty);
   catch_up();
   if (interrupts == taken && (is_empty || !code_takes_time())) {
-    loops_ = true;
+    signs_.set_loops(true);
     pass(first_jump_ps << std::min(before, beside_other() ? most_beside_other : most_doublings));
     catch_up();
   }
-  loops_ = false;
+  signs_.set_loops(false);
 }
 
 // Of the innermost calls first: one that cannot return decides. A program that describes itself
@@ -264,9 +261,8 @@ MachineCode::Reach Cpu::reach() const {
 
 // What it waits for inside of its endless loop may never come: a warning says so.
 void Cpu::end_at_limit(const std::string& hint, bool sleeps) {
-  constexpr std::uint64_t many_looks = 1'000;
-  const bool waits = loops_ ? reach() != MachineCode::Reach::straight
-                            : last_look_.again >= many_looks && last_look_.changed == 0;
+  const bool waits =
+      signs_.loops() ? reach() != MachineCode::Reach::straight : signs_.sees_no_change();
   if (sleeps || waits) {
     vp::warn(*this, "/markervp/cpu/time_limit",
              "the program reached its time limit, " + vp::format_time(settings_.timeout) + " (" +

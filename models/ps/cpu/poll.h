@@ -1,6 +1,6 @@
 #pragma once
 
-#include <ps/cpu/cpu_time.h>
+#include <ps/cpu/local_time.h>
 #include <vp/clock_scheduler.h>
 #include <vp/register_route.h>
 #include <cstdint>

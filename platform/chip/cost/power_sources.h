@@ -1,109 +1,15 @@
 #pragma once
 
-#include <cstdint>
-#include <deque>
-#include <string>
-#include <systemc>
 #include <vector>
 
 #include <chip/cost/parts.h>
+#include <chip/cost/power_options.h>
+#include <chip/cost/power_states.h>
 #include <chip/system/zynq.h>
-#include <facts/result.h>
 #include <fpga/power/power_table.h>
-#include <vp/clock.h>
-#include <vp/parameter.h>
 #include <vp/power_meter.h>
-#include <vp/signal.h>
 
 namespace platform {
-
-enum class PowerMode {
-  vivado_default,  ///< a vendor estimate: constant PS, default toggling in the PL
-  activity,        ///< load, traffic and events of the simulation
-};
-
-/// The parameters of the module that they are a member of.
-struct PowerOptions {
-  /// The defaults of pl_design and mode; `design` adds its own.
-  PowerOptions(bool uses_pl, PowerMode usual, Design& design);
-
-  vp::Parameter<PowerMode> mode;
-  vp::Parameter<std::string> table;
-  vp::Parameter<double> ambient;
-  vp::Parameter<double> theta_ja;
-  vp::Parameter<bool> pl_design;
-
-  struct Ddr : sc_core::sc_module {
-    explicit Ddr(sc_core::sc_module_name name);
-    vp::Parameter<std::uint32_t> width;
-    vp::Parameter<std::uint64_t> frequency;
-    vp::Parameter<double> voltage;
-  } ddr{"ddr"};
-
-  vp::ThermalPath thermal_path() const { return {ambient, theta_ja}; }
-};
-
-/// The states on which power depends, with their history: frequencies of the clocks, whether the
-/// processor is awake, and whether the PL plays a frame. All of them are the same at every
-/// fidelity.
-class PowerStates : private vp::ClockListener, private vp::SignalListener {
- public:
-  /// Told after each change.
-  class Observer {
-   public:
-    virtual ~Observer() = default;
-    virtual void states_changed(std::uint64_t ps) = 0;
-  };
-  /// A clock of the PL.
-  struct PlClock {
-    const vp::Clock* clock;
-    vp::PiecewiseConstant hz;
-    vp::PiecewiseConstant frame_hz;  ///< 0 while no frame is played
-    std::uint64_t fastest_hz;        ///< that it had
-    bool external = false;           ///< comes in at a pin, for the design
-  };
-
-  explicit PowerStates(Zynq& zynq);
-  ~PowerStates() override;
-  PowerStates(const PowerStates&) = delete;
-  PowerStates& operator=(const PowerStates&) = delete;
-
-  vp::PiecewiseConstant always{1};
-  vp::PiecewiseConstant cpu_hz;
-  vp::PiecewiseConstant cpu_awake_hz;  ///< times the number of cores that are awake
-
-  /// The highest frequency that the clock of the cores, or one of the PL, had.
-  std::uint64_t fastest_hz(const vp::Clock& clock) const;
-  /// Throws std::logic_error for one that neither the PS makes nor the design has.
-  const PlClock& pl_clock(const vp::Clock& clock) const;
-  bool is_external(const vp::Clock& clock) const { return pl_clock(clock).external; }
-  const std::deque<PlClock>& pl_clocks() const { return pl_clocks_; }
-  /// Of the processor, those that do not wait for an interrupt or an event.
-  unsigned awake_cores() const;
-  bool frame_runs() const { return !busy_ || *busy_; }
-  /// At most one.
-  void set_observer(Observer* observer) { observer_ = observer; }
-
-  /// Times after `from_ps`, before `to_ps`, at which something changed; in order.
-  std::vector<std::uint64_t> changes(std::uint64_t from_ps, std::uint64_t to_ps);
-  void forget_before(std::uint64_t ps);
-
- private:
-  void before_change(vp::Clock&) override {}
-  void after_change(vp::Clock&) override { update(); }
-  void on_change(vp::SignalBase& signal, std::uint32_t id) override;
-  void update();
-  void add_pl_clock(const vp::Clock& clock, bool external);
-  bool knows(const vp::Clock& clock) const;
-  template <class Visit>
-  void for_each_history(Visit visit);
-
-  Zynq& zynq_;
-  vp::Signal<bool>* busy_;  ///< null: the logic always works
-  std::uint64_t fastest_cpu_hz_;
-  std::deque<PlClock> pl_clocks_;
-  Observer* observer_ = nullptr;
-};
 
 /// What takes power on the Zynq-7020, for the meter: from the coefficients, the design, and the
 /// mode. What is passed must outlive the sources.
@@ -111,13 +17,5 @@ std::vector<vp::PowerSource> power_sources(Zynq& zynq, const PowerOptions& optio
                                            const power::PowerTable& table,
                                            const std::vector<Part>& parts,
                                            const PowerStates& states);
-
-/// What the memory clock is: as configured, or what the chip makes of that. Hz.
-std::uint64_t ddr_hz(const Zynq& zynq, const PowerOptions& options);
-
-/// All clocks that have a limit, with the highest frequency that they had. Clocks of the PL that no
-/// part of the design uses are marked so.
-facts::ClockReport clock_report(Zynq& zynq, const PowerOptions& options, const PowerStates& states,
-                                const std::vector<Part>& parts);
 
 }  // namespace platform

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <chip/cost/clock_report.h>
 #include <chip/cost/parts.h>
 #include <chip/cost/power_sources.h>
 

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include <chip/cost/parts.h>
-#include <chip/cost/power_sources.h>
+#include <chip/cost/power_options.h>
+#include <chip/cost/power_states.h>
 #include <chip/system/zynq.h>
 #include <facts/result.h>
 #include <facts/summary.h>

@@ -18,8 +18,6 @@ namespace platform {
 
 namespace {
 
-constexpr std::uint64_t word_bits = 32;
-
 bool is_below(const std::string& path, const std::string& module) {
   return path.compare(0, module.size(), module) == 0 &&
          (path.size() == module.size() || path[module.size()] == '.');

@@ -17,6 +17,9 @@
 
 namespace platform {
 
+/// Of a register, of a word in memory and on links of 32 bits.
+constexpr unsigned word_bits = 32;
+
 /// A fault of a run, and what came of it.
 struct Injection {
   Fault fault;

@@ -16,8 +16,6 @@ namespace platform {
 
 namespace {
 
-constexpr unsigned word_bits = 32;
-
 void check_bit(const Fault& fault, unsigned bits) {
   if (fault.bit >= bits)
     throw vp::InputError("'bit' is " + std::to_string(fault.bit) + ", and there are " +

@@ -100,6 +100,10 @@ Device without_bank(Zynq& zynq, const HardwareMap& map, const HardwareMap::Devic
 
 /// What a module is, for people.
 std::string title(const sc_core::sc_object& object) {
+  if (const auto* ps = dynamic_cast<const ProcessingSystem*>(object.get_parent_object())) {
+    for (const PsDevice& device : ps->devices)
+      if (device.module.get() == &object) return device.title;
+  }
   static const std::pair<const char*, const char*> titles[] = {
       {"ps::Gic", "Interrupt controller (PL390)"},
       {"ps::GlobalTimer", "Global timer"},
@@ -125,13 +129,7 @@ std::string title(const sc_core::sc_object& object) {
       {"ps::I2c", "I2C"},
       {"ps::Spi", "SPI"},
       {"ps::Ttc", "Triple timer counter"},
-      {"ps::SystemWatchdog", "System watchdog"},
       {"ps::XadcInterface", "XADC interface"},
-      {"ps::Devcfg", "Device configuration, idle"},
-      {"ps::Qspi", "Quad-SPI, I/O mode"},
-      {"ps::Sdio", "SDIO without a card"},
-      {"ps::Gem", "Ethernet without PHY"},
-      {"ps::Usb", "USB without transceiver"},
       {"xilinx::RegisterStub", "Stub without model or RTL: reads give 0"}};
   for (const auto& [kind, text] : titles) {
     if (std::string(object.kind()) == kind) return text;

@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <devcfg_registers.h>
-#include <gem_registers.h>
 #include <gic_registers.h>
 #include <global_timer_registers.h>
 #include <private_timer_registers.h>
@@ -14,13 +12,9 @@
 #include <ps_i2c_registers.h>
 #include <ps_spi_registers.h>
 #include <ps_xadc_registers.h>
-#include <qspi_registers.h>
-#include <sdio_registers.h>
 #include <slcr_registers.h>
-#include <system_watchdog_registers.h>
 #include <ttc_registers.h>
 #include <uart_registers.h>
-#include <usb_registers.h>
 #include <vp/error.h>
 #include <vp/ip.h>
 
@@ -124,16 +118,8 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       spi1("spi1", spi_ref_clk),
       ttc0("ttc0", cpu_1x_clk),
       ttc1("ttc1", cpu_1x_clk),
-      swdt("swdt", cpu_1x_clk),
       xadc("xadc", scheduler),
-      devcfg("devcfg", cpu_1x_clk),
-      qspi("qspi", scheduler),
-      sdio0("sdio0", scheduler),
-      sdio1("sdio1", scheduler),
-      gem0("gem0", scheduler),
-      gem1("gem1", scheduler),
-      usb0("usb0", scheduler),
-      usb1("usb1", scheduler),
+      devices(make_ps_devices(scheduler, cpu_1x_clk)),
       ocm("ocm", cpu_clk.clk),
       ddr("ddr"),
       m_axi_gp0("m_axi_gp0", fclk_clk0.clk),
@@ -158,7 +144,9 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   cpu.connect(ddr.dma_memory());
   place_stacks();
   cpu.set_poll_elision(poll_elision);
-  cpu.name_devices([this](std::uint32_t address) { return ps::Answerer{device_at(address)}; });
+  cpu.surroundings.device = [this](std::uint32_t address) {
+    return ps::Answerer{device_at(address)};
+  };
   if (cores == 1) return;
   const vp::HierarchyScope scope(*this);
   second_core_ = std::make_unique<SecondCore>(*this, cpu_clk.clk);
@@ -244,31 +232,24 @@ void ProcessingSystem::map_peripherals() {
   interconnect
       .map("peripheral_bus", peripheral_base, peripheral_size, vp::Router::Addresses::absolute)
       .bind(peripheral_bus.socket);
-  vp::Router& devices = peripheral_bus.devices;
-  devices.map("uart0", uart::uart0_base, device_size).bind(uart0.registers.socket);
-  devices.map("uart1", uart::uart1_base, device_size).bind(uart1.registers.socket);
-  devices.map("slcr", slcr::base, device_size).bind(slcr.registers.socket);
-  const auto map = [&devices](const char* name, std::uint32_t base, vp::RegisterBank& bank,
-                              std::uint64_t size = device_size) {
-    devices.map(name, base, size).bind(bank.socket);
+  vp::Router& bus = peripheral_bus.devices;
+  bus.map("uart0", uart::uart0_base, device_size).bind(uart0.registers.socket);
+  bus.map("uart1", uart::uart1_base, device_size).bind(uart1.registers.socket);
+  bus.map("slcr", slcr::base, device_size).bind(slcr.registers.socket);
+  const auto map = [&bus](const char* name, std::uint32_t base, vp::RegisterBank& bank,
+                          std::uint64_t size = device_size) {
+    bus.map(name, base, size).bind(bank.socket);
   };
-  map("usb0", usb::usb0_base, usb0.registers);
-  map("usb1", usb::usb1_base, usb1.registers);
   map("i2c0", ps_i2c::i2c0_base, i2c0.registers);
   map("i2c1", ps_i2c::i2c1_base, i2c1.registers);
   map("spi0", ps_spi::spi0_base, spi0.registers);
   map("spi1", ps_spi::spi1_base, spi1.registers);
   map("gpio", ps_gpio::base, gpio.registers);
-  map("gem0", gem::gem0_base, gem0.registers);
-  map("gem1", gem::gem1_base, gem1.registers);
-  map("qspi", qspi::base, qspi.registers);
-  map("sdio0", sdio::sd0_base, sdio0.registers);
-  map("sdio1", sdio::sd1_base, sdio1.registers);
   map("ttc0", ttc::ttc0_base, ttc0.registers);
   map("ttc1", ttc::ttc1_base, ttc1.registers);
-  map("swdt", system_watchdog::base, swdt.registers);
-  map("devcfg", devcfg::base, devcfg.registers, private_device_size);
   map("xadc", ps_xadc::base, xadc.registers, private_device_size);
+  for (const PsDevice& device : devices)
+    bus.map(device.module->basename(), device.base, device.size).bind(device.registers.socket);
 }
 
 // Software resets one block at a time, by its bit of the SLCR.
@@ -291,12 +272,7 @@ void ProcessingSystem::connect_interrupts() {
                  {uart::uart0_interrupt, &uart0.irq},
                  {uart::uart1_interrupt, &uart1.irq},
                  {ps_xadc::interrupt_id, &xadc.irq},
-                 {devcfg::interrupt_id, &devcfg.irq},
-                 {system_watchdog::interrupt_id, &swdt.irq},
-                 {qspi::interrupt_id, &qspi.irq},
                  {ps_gpio::interrupt_id, &gpio.irq},
-                 {sdio::sd0_interrupt, &sdio0.irq},
-                 {sdio::sd1_interrupt, &sdio1.irq},
                  {ps_i2c::i2c0_interrupt, &i2c0.irq},
                  {ps_i2c::i2c1_interrupt, &i2c1.irq},
                  {ps_spi::spi0_interrupt, &spi0.irq},
@@ -304,6 +280,9 @@ void ProcessingSystem::connect_interrupts() {
   for (unsigned n = 0; n < ttc::counter_count; ++n) {
     interrupts_.push_back({ttc::ttc0_interrupt + n, &ttc0.counter(n).irq});
     interrupts_.push_back({ttc::ttc1_interrupt + n, &ttc1.counter(n).irq});
+  }
+  for (const PsDevice& device : devices) {
+    if (device.irq) interrupts_.push_back({device.interrupt, device.irq});
   }
   for (const Interrupt& interrupt : interrupts_) gic.connect(interrupt.id, *interrupt.source);
   cpu.n_irq(gic.n_irq);

@@ -7,6 +7,7 @@
 #include <systemc>
 #include <vector>
 
+#include <chip/system/ps_devices.h>
 #include <fpga/device/clock_plan.h>
 #include <fpga/device/device.h>
 #include <ps/cpu/cpu.h>
@@ -14,13 +15,11 @@
 #include <ps/global_timer/global_timer.h>
 #include <ps/gpio/gpio.h>
 #include <ps/i2c/i2c.h>
-#include <ps/idle/idle_devices.h>
 #include <ps/interconnect/interconnect.h>
 #include <ps/memory/memory.h>
 #include <ps/private_timer/private_timer.h>
 #include <ps/slcr/slcr.h>
 #include <ps/spi/spi.h>
-#include <ps/system_watchdog/system_watchdog.h>
 #include <ps/ttc/ttc.h>
 #include <ps/uart/uart.h>
 #include <ps/xadc/xadc.h>
@@ -103,16 +102,8 @@ class ProcessingSystem : public sc_core::sc_module {
   ps::Spi spi1;
   ps::Ttc ttc0;
   ps::Ttc ttc1;
-  ps::SystemWatchdog swdt;
   ps::XadcInterface xadc;
-  ps::Devcfg devcfg;
-  ps::Qspi qspi;
-  ps::Sdio sdio0;
-  ps::Sdio sdio1;
-  ps::Gem gem0;
-  ps::Gem gem1;
-  ps::Usb usb0;
-  ps::Usb usb1;
+  const std::vector<PsDevice> devices;  ///< the other peripherals
   ps::Ocm ocm;
   ps::Ddr ddr;
   static constexpr std::uint64_t gp0_base = 0x4000'0000, gp0_size = 0x4000'0000;  // UG585 table 4-1

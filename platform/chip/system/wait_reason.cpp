@@ -212,7 +212,7 @@ std::string state_of_dma(Zynq& zynq, const MappedDevice& device, bool sends) {
 
 }  // namespace
 
-std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Cpu::Wait& wait) {
+std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Surroundings::Wait& wait) {
   const facts::HardwareMap map = hardware_map(zynq);
   std::vector<std::string> reasons;
   const auto add = [&](const std::string& reason) {

@@ -60,16 +60,18 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual
   scheduler.set_batch(true);
   for (ps::Cpu* core : ps.cpus()) {
     const ps::Gic& gic = core->number() == 0 ? ps.gic : ps.second_core()->gic;
-    core->name_devices([this](std::uint32_t address) { return answerer_at(address); });
-    core->describe_registers([this](std::uint32_t address, std::uint32_t value) {
-      return register_text(hardware_map(*this), address, value);
-    });
-    core->describe_requests([this, &gic] {
-      const ps::Gic::Request request = gic.request();
-      return ps::Cpu::Request{request_text(gic, request), request.since_ps};
-    });
-    core->explain_waits(
-        [this, &gic](const ps::Cpu::Wait& wait) { return reason_of_wait(*this, gic, wait); });
+    core->surroundings = {
+        [this](std::uint32_t address) { return answerer_at(address); },
+        [this](std::uint32_t address, std::uint32_t value) {
+          return register_text(hardware_map(*this), address, value);
+        },
+        [this, &gic] {
+          const ps::Gic::Request request = gic.request();
+          return ps::Surroundings::Request{request_text(gic, request), request.since_ps};
+        },
+        [this, &gic](const ps::Surroundings::Wait& wait) {
+          return reason_of_wait(*this, gic, wait);
+        }};
   }
 }
 

@@ -46,7 +46,7 @@ Profiler::~Profiler() {
 
 Profiler::Mark Profiler::mark(const Course& course) {
   const ps::Cpu& cpu = course.cpu;
-  return {cpu.program_time_ps(), cpu.activity().idle_ps(), cpu.counted()};
+  return {cpu.program_time_ps(), cpu.activity().idle_ps(), cpu.work().counted()};
 }
 
 void Profiler::at(Course& course, ps::Cpu::Moment moment) {

@@ -81,7 +81,7 @@ class Profiler {
   struct Mark {
     std::uint64_t time_ps = 0;
     std::uint64_t idle_ps = 0;
-    ps::Cpu::Counted counted;
+    ps::WorkMeter::Counted counted;
   };
   /// What a core is at.
   struct Course {

@@ -15,7 +15,7 @@
 namespace platform {
 
 /// Lets a test outside of this process lead a run: it sends a line of JSON and gets one back, over
-/// a socket. While it thinks, simulated time stands; docs/software.md has the commands.
+/// a socket. While it thinks, no simulated time passes; docs/program-tests.md has the commands.
 ///
 /// Every answer has `time_ps`, `ended` and `console`, the lines printed since the last one; of a
 /// mistake `error`, and the run continues. What a test does happens at the time that the run has

@@ -19,7 +19,7 @@ using Point = KnownFigures::Point;
 constexpr double hz_per_mhz = 1e6;
 /// No logic is faster than the clock buffer: 2.155 ns in public timing reports of -1.
 constexpr std::uint64_t clock_buffer_hz = 464'000'000;
-/// Of LUT and flip-flops, against what Vivado makes of the same RTL (docs/rtl.md).
+/// Of LUT and flip-flops, against what Vivado makes of the same RTL (docs/rtl-library.md).
 constexpr unsigned uncertainty_percent = 40, uncertainty_beyond_percent = 60;
 
 /// "; not covered by it: two clocks"

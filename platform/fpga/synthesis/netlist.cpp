@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <unordered_map>
+#include <utility>
 
 #include <fpga/synthesis/cell_kinds.h>
 #include <fpga/synthesis/clocks.h>
 #include <fpga/synthesis/lut_pairs.h>
+#include <fpga/synthesis/timing_graph.h>
 #include <host/document.h>
 #include <vp/error.h>
 
@@ -17,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr unsigned none = ~0u;
+constexpr unsigned none = TimingGraph::none;
 
 void count(const std::string& type, Cells& cells) {
   switch (kind_of(type)) {
@@ -46,128 +47,21 @@ void count(const std::string& type, Cells& cells) {
   }
 }
 
-// ---- the graph of what waits for what
-
-/// A bit of a net. What drives it is one cell.
-struct Bit {
-  Kind driver = Kind::unknown;
-  unsigned fan_out = 0;
-  double start_ns = -1;  ///< a register's clock to output; less than 0: no register drives it
-  unsigned waits_for = 0;
-  std::vector<unsigned> arcs;
-};
-
-struct Arc {
-  unsigned from, to;
-  double ns;
-  bool leaves_slice;
-  const std::string* cell;
-};
-
-struct End {
-  unsigned bit;
-  double setup_ns;
-  bool leaves_slice;
-  unsigned output;  ///< of the register, which names it; none: memory
-};
-
-/// When the last of what a bit waits for is there, ns, less than 0: never; and through which arc
-/// and from which state it came (2 * arc + state). Two entries a bit.
-struct Way {
-  std::vector<double> at;
-  std::vector<unsigned> through;
-};
-
-class Graph {
+/// Makes the graph of a module from its cells.
+class GraphBuilder {
  public:
-  Graph(const Json& module, const PathTiming& timing) : timing_(timing) {
+  GraphBuilder(const Json& module, const PathTiming& timing) : timing_(timing) {
     for (const auto& [name, cell] : module.at("cells").items()) add_nets(cell);
     for (const auto& [name, cell] : module.at("cells").items()) add_cell(cell);
     name_bits(module.at("netnames"));
-    for (const Arc& arc : arcs_) ++bits_[arc.to].waits_for;
-    for (unsigned i = 0; i < arcs_.size(); ++i) bits_[arcs_[i].from].arcs.push_back(i);
   }
 
-  /// Every bit after those that it waits for. Throws vp::InputError for a loop.
-  std::vector<unsigned> in_order() const {
-    std::vector<unsigned> open(bits_.size()), order;
-    for (unsigned i = 0; i < bits_.size(); ++i) {
-      open[i] = bits_[i].waits_for;
-      if (open[i] == 0) order.push_back(i);
-    }
-    for (std::size_t next = 0; next < order.size(); ++next) {
-      for (const unsigned arc : bits_[order[next]].arcs) {
-        if (--open[arcs_[arc].to] == 0) order.push_back(arcs_[arc].to);
-      }
-    }
-    if (order.size() == bits_.size()) return order;
-    const auto on_loop = std::find_if(open.begin(), open.end(), [](unsigned n) { return n > 0; });
-    throw LoopError("a combinational loop goes through '" +
-                    name_of(static_cast<unsigned>(on_loop - open.begin())) +
-                    "': put a register into it");
-  }
-
-  /// The fan-outs that there are. 0 represents a path that never leaves its slice.
-  std::set<unsigned> fan_outs() const {
-    std::set<unsigned> found{0};
-    for (const Bit& bit : bits_) {
-      if (bit.fan_out > 0) found.insert(bit.fan_out);
-    }
-    return found;
-  }
-
-  /// The longest path whose largest fan-out that is, nets counted alike. What has not passed such a
-  /// net yet is kept apart from what has: state 0 and 1 of a bit.
-  std::optional<Path> longest(const std::vector<unsigned>& order, unsigned fan_out) const {
-    const double net_ns = timing_.net_ns();
-    Way way{std::vector<double>(2 * bits_.size(), -1),
-            std::vector<unsigned>(2 * bits_.size(), none)};
-    const auto after = [&](unsigned i, bool leaves_slice, unsigned state) {
-      return state == 1 || (leaves_slice && bits_[i].fan_out == fan_out) ? 1u : 0u;
-    };
-    for (const unsigned i : order) {
-      const Bit& bit = bits_[i];
-      if (bit.start_ns > way.at[2 * i]) {
-        way.at[2 * i] = bit.start_ns;
-        way.through[2 * i] = none;
-      }
-      for (unsigned state = 0; state < 2; ++state) {
-        const double now = way.at[2 * i + state];
-        if (now < 0) continue;
-        for (const unsigned a : bit.arcs) {
-          const Arc& arc = arcs_[a];
-          if (arc.leaves_slice && bit.fan_out > fan_out) continue;
-          const unsigned next = 2 * arc.to + after(i, arc.leaves_slice, state);
-          const double then = now + arc.ns + (arc.leaves_slice ? net_ns : 0);
-          if (then <= way.at[next]) continue;
-          way.at[next] = then;
-          way.through[next] = 2 * a + state;
-        }
-      }
-    }
-    const End* last = nullptr;
-    unsigned last_state = 0;
-    double latest = 0;
-    for (const End& end : ends_) {
-      if (end.leaves_slice && bits_[end.bit].fan_out > fan_out) continue;
-      for (unsigned state = 0; state < 2; ++state) {
-        const double now = way.at[2 * end.bit + state];
-        const double then = now + end.setup_ns + (end.leaves_slice ? net_ns : 0);
-        const bool counts = after(end.bit, end.leaves_slice, state) == 1 || fan_out == 0;
-        if (now < 0 || !counts || (last && then <= latest)) continue;
-        last = &end;
-        last_state = state;
-        latest = then;
-      }
-    }
-    if (!last) return std::nullopt;
-    return walk_back(*last, last_state, way.through);
-  }
+  TimingGraph take() { return std::move(graph_); }
 
   std::uint32_t luts_to_let_through() const {
     return static_cast<std::uint32_t>(
         std::count_if(entrances_.begin(), entrances_.end(),
-                      [this](unsigned i) { return bits_[i].driver != Kind::lut; }));
+                      [this](unsigned i) { return drivers_[i] != Kind::lut; }));
   }
 
  private:
@@ -178,8 +72,11 @@ class Graph {
   /// Yosys' number of a bit, or a constant, as our own; none for a constant.
   unsigned bit(const Json& value) {
     if (!value.is_number()) return none;
-    const auto [found, is_new] = index_.try_emplace(value.get<unsigned>(), bits_.size());
-    if (is_new) bits_.emplace_back();
+    const auto [found, is_new] = index_.try_emplace(value.get<unsigned>(), drivers_.size());
+    if (is_new) {
+      drivers_.push_back(Kind::unknown);
+      graph_.bits.emplace_back();
+    }
     return found->second;
   }
 
@@ -192,10 +89,10 @@ class Graph {
         const unsigned i = bit(value);
         if (i == none || (input && is_clock(kind, port))) continue;
         if (input) {
-          ++bits_[i].fan_out;
+          ++graph_.bits[i].fan_out;
           if (kind == Kind::carry && port == "S") entrances_.push_back(i);
         } else {
-          bits_[i].driver = kind;
+          drivers_[i] = kind;
         }
       }
     }
@@ -203,7 +100,7 @@ class Graph {
 
   /// Whether the net to that input can stay in a slice: no time then.
   bool leaves_slice(unsigned from, Kind to, const std::string& port) const {
-    const Kind driver = bits_[from].driver;
+    const Kind driver = drivers_[from];
     const bool logic = driver == Kind::lut || driver == Kind::mux || driver == Kind::lutram;
     switch (to) {
       case Kind::inverter:
@@ -224,8 +121,8 @@ class Graph {
                const std::string& port) {
     const unsigned a = bit(from), b = bit(to);
     if (a == none || b == none) return;
-    const auto* type = cell.at("type").get_ptr<const std::string*>();
-    arcs_.push_back({a, b, ns, leaves_slice(a, kind_of(*type), port), type});
+    const std::string& type = cell.at("type").get_ref<const std::string&>();
+    graph_.add_arc({a, b, ns, leaves_slice(a, kind_of(type), port), type});
   }
 
   /// From each bit of an input to each of an output.
@@ -241,7 +138,7 @@ class Graph {
     const Json& ports = cell.at("connections");
     if (!ports.contains(port)) return;
     for (const Json& value : ports[port]) {
-      if (const unsigned i = bit(value); i != none) bits_[i].start_ns = ns;
+      if (const unsigned i = bit(value); i != none) graph_.bits[i].start_ns = ns;
     }
   }
 
@@ -253,7 +150,7 @@ class Graph {
     const unsigned output = has_name ? bit(ports.at("Q")[0]) : none;
     for (const Json& value : ports[port]) {
       const unsigned i = bit(value);
-      if (i != none) ends_.push_back({i, setup_ns, leaves_slice(i, kind, port), output});
+      if (i != none) graph_.ends.push_back({i, setup_ns, leaves_slice(i, kind, port), output});
     }
   }
 
@@ -406,7 +303,6 @@ class Graph {
   }
 
   void name_bits(const Json& nets) {
-    names_.resize(bits_.size());
     for (const auto& [name, net] : nets.items()) {
       if (net.value("hide_name", 0) != 0) continue;
       const Json& values = net.at("bits");
@@ -416,49 +312,17 @@ class Graph {
         if (found == index_.end()) continue;
         std::string full = name;
         if (values.size() > 1) full += "[" + std::to_string(k) + "]";
-        std::string& known = names_[found->second];
+        std::string& known = graph_.bits[found->second].name;
         if (known.empty() || full.size() < known.size()) known = full;
       }
     }
   }
 
-  std::string name_of(unsigned i) const {
-    return names_[i].empty() ? "a net without name" : names_[i];
-  }
-
-  Path walk_back(const End& end, unsigned state, const std::vector<unsigned>& through) const {
-    Path path;
-    path.setup_ns = end.setup_ns;
-    path.to = name_of(end.output == none ? end.bit : end.output);
-    const auto pass = [&](unsigned net, bool leaves_slice) {
-      if (!leaves_slice) return;
-      ++path.nets;
-      path.fan_out = std::max(path.fan_out, bits_[net].fan_out);
-    };
-    pass(end.bit, end.leaves_slice);
-    unsigned i = end.bit;
-    while (through[2 * i + state] != none) {
-      const unsigned step = through[2 * i + state];
-      const Arc& arc = arcs_[step / 2];
-      state = step % 2;
-      path.cells_ns += arc.ns;
-      path.cells.push_back(*arc.cell);
-      pass(arc.from, arc.leaves_slice);
-      i = arc.from;
-    }
-    path.cells_ns += bits_[i].start_ns;
-    path.from = name_of(i);
-    std::reverse(path.cells.begin(), path.cells.end());
-    return path;
-  }
-
   const PathTiming& timing_;
   std::unordered_map<unsigned, unsigned> index_;
-  std::vector<Bit> bits_;
+  std::vector<Kind> drivers_;        ///< of each bit: what drives it is one cell
   std::vector<unsigned> entrances_;  ///< what enters carry chains
-  std::vector<std::string> names_;
-  std::vector<Arc> arcs_;
-  std::vector<End> ends_;
+  TimingGraph graph_;
 };
 
 /// Yosys writes bits.
@@ -496,14 +360,15 @@ Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
   Netlist netlist;
   netlist.parameters = parameters_of(module);
   for (const auto& [name, cell] : module.at("cells").items()) count(cell.at("type"), netlist.cells);
-  const Graph graph(module, timing);
+  GraphBuilder builder(module, timing);
   netlist.cells.lut_pairs = LutPairs(module.at("cells")).count();
-  netlist.cells.lut_through = graph.luts_to_let_through();
+  netlist.cells.lut_through = builder.luts_to_let_through();
+  const TimingGraph graph = builder.take();
   const std::vector<unsigned> order = graph.in_order();
   // A path's nets are judged by their number and by the largest fan-out. So the longest path is
   // that of one of the graphs that are left below a fan-out.
   for (const unsigned fan_out : graph.fan_outs()) {
-    const std::optional<Path> path = graph.longest(order, fan_out);
+    const std::optional<Path> path = graph.longest(order, fan_out, timing.net_ns());
     if (!path) continue;
     if (!netlist.longest || timing.period_ns(*path) > timing.period_ns(*netlist.longest)) {
       netlist.longest = path;

@@ -9,7 +9,6 @@
 
 #include <fpga/synthesis/clocks.h>
 #include <fpga/synthesis/path_timing.h>
-#include <vp/error.h>
 
 /// What Yosys makes of RTL for the 7 series: `synth_xilinx -flatten -abc9`, then `write_json`.
 namespace platform::synthesis {
@@ -47,11 +46,6 @@ struct Netlist {
 
   /// That of the longest path, and no more than the limit; none without a path.
   std::optional<Fmax> fmax(const PathTiming& timing) const;
-};
-
-/// A combinational loop, named by a signal on it.
-struct LoopError : vp::InputError {
-  using InputError::InputError;
 };
 
 /// Reads the module `top`. Throws vp::InputError: no such file or module, a cell

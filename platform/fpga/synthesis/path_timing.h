@@ -8,7 +8,7 @@
 
 /// How fast a synthesised design can be clocked on a 7-series chip of speed grade -1. Cells follow
 /// from synthesis. Nets are known only after routing: what represents them was fitted to public
-/// timing reports (docs/rtl.md, calibration/rtl/fit.py).
+/// timing reports (docs/rtl-library.md, calibration/rtl/fit.py).
 namespace platform::synthesis {
 
 /// From the clock of one register to the next one's.

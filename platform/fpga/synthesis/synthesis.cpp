@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <regex>
 
+#include <fpga/synthesis/timing_graph.h>
 #include <fpga/synthesis/yosys.h>
 #include <host/digest.h>
 #include <host/document.h>

@@ -44,14 +44,14 @@ BOOST_AUTO_TEST_CASE(nothing_mapped) {
              "data abort: read of 0x41230000: DECERR, nothing answers there, at 12 ns in function "
              "'inner' of program 'bench'");
   BOOST_TEST(b.cpu.end_ps() == 12'000u);
-  BOOST_TEST(b.cpu.work()[step].count == 12u);
+  BOOST_TEST(b.cpu.work().counts()[step].count == 12u);
 }
 
 BOOST_AUTO_TEST_CASE(the_device_refuses) {
   Bench b;
-  b.cpu.name_devices([](std::uint32_t address) {
+  b.cpu.surroundings.device = [](std::uint32_t address) {
     return ps::Answerer{address == device_address + 4 ? "gpio" : ""};
-  });
+  };
   b.device.status = tlm::TLM_COMMAND_ERROR_RESPONSE;
   BOOST_TEST(
       failure_of(b,
@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(the_timeout_counts_the_same_work_under_any_quantum) {
       while (true) hal_work(load, 1);
       return 0;
     });
-    counts.push_back(b.cpu.work()[load].count);
+    counts.push_back(b.cpu.work().counts()[load].count);
   }
   // 6.75 ns each: the 149th reaches 1 us.
   const std::vector<std::uint64_t> expected(4, 149);
@@ -266,7 +266,7 @@ BOOST_AUTO_TEST_CASE(interrupts_that_overrun_the_handler) {
   vp::ReportRouter reports;
   std::ostringstream text;
   reports.redirect(text);
-  b.cpu.describe_requests([&b] { return ps::Cpu::Request{"a tick", now_ps()}; });
+  b.cpu.surroundings.request = [&b] { return ps::Surroundings::Request{"a tick", now_ps()}; };
   b.set_n_irq_at(5'000, false);
   failure_of(b, [] {
     hal_interrupt_connect([](void*) {}, nullptr);
@@ -282,9 +282,9 @@ BOOST_AUTO_TEST_CASE(interrupts_that_overrun_the_handler) {
 
 BOOST_AUTO_TEST_CASE(an_endless_poll_names_its_register) {
   Bench b({"cpu.timeout=1 ms"});
-  b.cpu.describe_registers([](std::uint32_t address, std::uint32_t) {
+  b.cpu.surroundings.register_text = [](std::uint32_t address, std::uint32_t) {
     return address == device_address ? "device.STATUS" : "";
-  });
+  };
   const std::string error = failure_of(b, [] {
     while (!hal_poll_until_changed(device_address, 0, 10, 100).changed) continue;
     return 0;

@@ -30,11 +30,11 @@ BOOST_AUTO_TEST_CASE(work_is_counted_by_unit) {
     for (int i = 0; i < 3; ++i) hal_work(load, 5);
     return 0;
   });
-  BOOST_TEST(b.cpu.work()[step].count == 0u);
-  BOOST_TEST(b.cpu.work()[load].count == 15u);
-  BOOST_TEST(b.cpu.work()[load].name == "load");
-  BOOST_TEST(b.cpu.work()[load].cycles == 2.5);
-  BOOST_TEST(b.cpu.work()[load].stall_ns == 3.0);
+  BOOST_TEST(b.cpu.work().counts()[step].count == 0u);
+  BOOST_TEST(b.cpu.work().counts()[load].count == 15u);
+  BOOST_TEST(b.cpu.work().counts()[load].name == "load");
+  BOOST_TEST(b.cpu.work().counts()[load].cycles == 2.5);
+  BOOST_TEST(b.cpu.work().counts()[load].stall_ns == 3.0);
   BOOST_TEST(b.cpu.cost_profile() == "test");
 }
 

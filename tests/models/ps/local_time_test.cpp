@@ -1,4 +1,4 @@
-#include <ps/cpu/cpu_time.h>
+#include <ps/cpu/local_time.h>
 #include <boost/test/unit_test.hpp>
 
 using ps::LocalTime;

@@ -37,9 +37,9 @@ struct Run : Bench {
     bus.map("ddr", ps::Ddr::base, ddr->size, vp::Router::Addresses::absolute).bind(ddr->socket);
     cpu.connect(ddr->dma_memory());
     cpu.end_stack_at(ddr->dma_memory().first());
-    cpu.name_devices([](std::uint32_t address) {
+    cpu.surroundings.device = [](std::uint32_t address) {
       return ps::Answerer{address / 0x1000 == device_address / 0x1000 ? "device" : ""};
-    });
+    };
     first = what;
     device.value = [this](std::uint64_t) {
       return std::exchange(asked, true) ? 0x89AB'CDEFu : static_cast<std::uint32_t>(first);
