@@ -54,21 +54,57 @@ void BlockDesign::build() {
   join_addresses();
   close_open_streams();
   close_open_ports();
+  find_delivery();
   if (design_.unit.end.part.empty()) return;
   unit_end_ = &signal_of(design_.unit.end);
   if (unit_end_->width() != 1)
     refuse(design_.unit.end, "has several bits, and a unit ends where one rises");
 }
 
+namespace {
+
+/// What a design delivers that says nothing of it.
+class NoDelivery : public Design {
+ public:
+  facts::Work work() const override { return {"", "the program ends well"}; }
+};
+
+}  // namespace
+
+void BlockDesign::find_delivery() {
+  std::string of;
+  for (const PlacedPart& part : design_.parts) {
+    const OwnIp* own = part.is_stub() ? nullptr : own_ip(part.vlnv);
+    if (!own || !own->deliver) continue;
+    const Surroundings around{
+        part, ports_, design_,
+        [this](const std::string& name) -> const Placed& { return placed(name); },
+        [this, &part](const std::string& pin) -> vp::Clock* {
+          const auto source = part.pins.find(pin);
+          return source == part.pins.end() ? nullptr : clock_of(source->second);
+        }};
+    if (has_own_)
+      around.refuse("a design delivers what one part does, and " + of +
+                    " is another: make one a stub ('as: stub')");
+    delivery_ = own->deliver(around);
+    has_own_ = true;
+    of = part.name;
+  }
+  if (!has_own_) delivery_ = std::make_unique<NoDelivery>();
+}
+
 facts::Work BlockDesign::work() const {
   const std::string& unit = design_.unit.name;
-  return unit.empty() ? facts::Work{"", "the program ends well"}
-                      : facts::Work{unit, "every " + unit + " is delivered"};
+  return unit.empty() ? of_own().work() : facts::Work{unit, "every " + unit + " is delivered"};
+}
+
+std::vector<Design::ClockRole> BlockDesign::clock_roles() {
+  return has_own_ ? of_own().clock_roles() : Design::clock_roles();
 }
 
 // What ends one begins the next: there is nothing else by which a program as it is shows its units.
 bool BlockDesign::report(const Publication& publication, facts::UnitReport& unit) {
-  if (design_.unit.name.empty()) return false;
+  if (design_.unit.name.empty()) return of_own().report(publication, unit);
   unit.start_ps = std::exchange(unit_from_ps_, publication.ps);
   unit.end_ps = publication.ps;
   return true;
@@ -80,6 +116,7 @@ BlockDesign::~BlockDesign() {
 
 // What is clocked goes before its clock.
 void BlockDesign::take_apart() {
+  delivery_.reset();
   blocked_.clear();
   silent_.clear();
   adapters_.clear();
@@ -323,6 +360,20 @@ std::vector<std::string> BlockDesign::used_stubs() const {
   return names;
 }
 
+namespace {
+
+/// Parameters of a part that are the platform's, too. Its RTL was built with its own.
+void add_settings(const PlacedPart& part, DesignInfo& info) {
+  const IpRule* rule = part.rule();
+  for (const auto& [name, value] : part.parameters) {
+    const ParameterRule* known = rule ? find_parameter(*rule, name) : nullptr;
+    if (known && !known->sets.empty())
+      info.defaults.emplace_back("pl." + part.name + "." + known->sets, unquoted(value));
+  }
+}
+
+}  // namespace
+
 DesignInfo load(const std::string& file) {
   const auto design = std::make_shared<const DesignFile>(read_design_file(file));
   DesignInfo info;
@@ -330,6 +381,7 @@ DesignInfo load(const std::string& file) {
   info.description = "the block design of " + file;
   info.programs = design->programs;
   info.defaults = design->settings;
+  for (const PlacedPart& part : design->parts) add_settings(part, info);
   info.make = [design](const char* name, PlPorts& ports) -> std::unique_ptr<Design> {
     return std::make_unique<BlockDesign>(name, ports, *design);
   };

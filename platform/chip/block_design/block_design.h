@@ -3,6 +3,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <systemc>
@@ -47,6 +48,27 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
 
   facts::Work work() const override;
   bool report(const Publication& publication, facts::UnitReport& unit) override;
+  facts::InputNeed input() const override { return of_own().input(); }
+  void describe(const facts::UnitInput& input, hal_frame& frame) const override {
+    of_own().describe(input, frame);
+  }
+  void place(const facts::SharedInput& input) override { of_own().place(input); }
+  void settle() override { of_own().settle(); }
+  std::optional<double> program_option(const std::string& name) const override {
+    return of_own().program_option(name);
+  }
+  void note_option(const std::string& name, double value) override {
+    of_own().note_option(name, value);
+  }
+  std::uint32_t settling_showings() const override { return of_own().settling_showings(); }
+  void check(facts::UnitReport& unit) override { of_own().check(unit); }
+  void finish() override { of_own().finish(); }
+  vp::Signal<bool>* busy() override { return of_own().busy(); }
+  void add_power_options() override { of_own().add_power_options(); }
+  bool has_net_figures() const override { return of_own().has_net_figures(); }
+  std::vector<std::string> groups() const override { return of_own().groups(); }
+  std::vector<ClockRole> clock_roles() override;
+  TimelineEngines timeline() override { return of_own().timeline(); }
   vp::SignalBase* unit_end() override { return unit_end_; }
   const std::string& unit_line() const override { return design_.unit.line; }
   std::vector<std::string> used_stubs() const override;
@@ -57,6 +79,9 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
 
   void build();
   void take_apart();
+  /// What an own IP of an application delivers; a design without one delivers nothing of it.
+  Design& of_own() const { return *delivery_; }
+  void find_delivery();
   void place_all();
   Placed& placed(const std::string& name);
   Placed place_processing_system(const PlacedPart& part);
@@ -91,6 +116,8 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
 
   PlPorts& ports_;
   const DesignFile& design_;
+  std::unique_ptr<Design> delivery_;
+  bool has_own_ = false;  ///< `delivery_` is that of an own IP
   vp::SignalBase* unit_end_ = nullptr;
   std::uint64_t unit_from_ps_ = 0;  ///< end of the unit before
   std::string ps_;                  ///< the name of the processing system among the parts

@@ -220,14 +220,15 @@ class Writer {
 
   void write_part(const Module& module) {
     const IpRule* rule = rule_for(module.vlnv);
-    ImportedPart part{module.full_name.substr(1), module.vlnv, rule ? rule->kind : Kind::stub, "",
-                      module.instance};
+    ImportedPart part{module.full_name.substr(1), module.vlnv, Kind::stub, "", module.instance};
+    // The RTL of an application's own IP goes before its model.
+    const bool is_own = !rule || !rule->maker.empty();
+    if (is_own) look_for_rtl(module, part);
+    if (part.kind == Kind::rtl) rule = nullptr;
     if (rule) {
       part.why = misfit(*rule, module);
       if (part.why.empty()) part.why = driven_board_input(*rule, module);
-      if (!part.why.empty()) part.kind = Kind::stub;
-    } else {
-      look_for_rtl(module, part);
+      part.kind = part.why.empty() ? rule->kind : Kind::stub;
     }
     line("  " + module.instance + ":");
     line("    ip: " + yaml(module.vlnv));

@@ -57,6 +57,10 @@ void Placement::refuse(const std::string& problem) const {
   throw vp::InputError(part.place + ": " + part.name + ": " + problem);
 }
 
+void Surroundings::refuse(const std::string& problem) const {
+  throw vp::InputError(part.place + ": " + part.name + ": " + problem);
+}
+
 namespace {
 
 xilinx::GpioChannelBuild gpio_channel(const Placement& at, const std::string& number) {
@@ -363,6 +367,7 @@ Placed place_stub(const Placement& at) {
 Placed place_part(const Placement& at) {
   if (at.part.is_stub()) return place_stub(at);
   if (!at.part.rtl.empty()) return place_rtl(at);
+  if (const OwnIp* own = own_ip(at.part.vlnv)) return own->place(at);
   const IpRule* rule = at.part.rule();
   if (rule->kind == Kind::left_out) return {};
   if (rule->kind == Kind::bus) return place_bus(at);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <chip/block_design/design_file.h>
+#include <chip/block_design/own_ip.h>
 #include <chip/block_design/shelf.h>
 #include <chip/system/design.h>
 #include <tlm_utils/simple_initiator_socket.h>
@@ -89,6 +90,19 @@ struct Placement {
   /// The clock at the first of these pins that is driven. Throws vp::InputError if none is, or if
   /// two of them have different clocks.
   vp::Clock& clock(const std::vector<std::string>& pins) const;
+  [[noreturn]] void refuse(const std::string& problem) const;
+};
+
+/// What the maker of an own IP is shown of the design around it, once all is wired.
+struct Surroundings {
+  const PlacedPart& part;
+  PlPorts& ports;
+  const DesignFile& design;
+  /// A part by its name in the design.
+  std::function<const Placed&(const std::string& name)> placed;
+  /// The clock at a pin of the own IP; null if the pin is open.
+  std::function<vp::Clock*(const std::string& pin)> clock_at;
+
   [[noreturn]] void refuse(const std::string& problem) const;
 };
 

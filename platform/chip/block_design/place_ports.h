@@ -8,6 +8,7 @@
 #include <chip/block_design/place.h>
 #include <vp/register_bank.h>
 #include <xilinx/axi_dma/memory_port.h>
+#include <xilinx/axi_interconnect/axi_interconnect.h>
 #include <xilinx/wiring/wiring.h>
 
 /// How ports of models become those of a placed part.
@@ -43,9 +44,13 @@ inline SlavePort registers(vp::RegisterBank& bank) {
   return {[&bank](RegionSocket& socket) { socket.bind(bank.socket); }};
 }
 
-/// A memory master of a model.
+/// A memory master of a model. An interconnect is larger with each of them.
 inline MasterPort memory_master(xilinx::MemoryPort& port) {
-  return {[&port](vp::Router& way) { port.link.socket.bind(way.socket); },
+  return {[&port](vp::Router& way) {
+            auto* interconnect = dynamic_cast<xilinx::AxiInterconnect*>(&way);
+            if (interconnect) return interconnect->connect(port);
+            port.link.socket.bind(way.socket);
+          },
           [&port](xilinx::MemoryPath& path) { port.share(path); }};
 }
 

@@ -3,6 +3,7 @@
 #include <chip/block_design/place.h>
 #include <strings.h>
 #include <vp/error.h>
+#include <xilinx/axi_interconnect/axi_interconnect.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -35,6 +36,8 @@ std::string name_in_design(const Placement& at, const std::string& name) {
 MasterPort master_of(axi::RtlPart& part, const std::string& name) {
   return {[&part, name](vp::Router& way) {
             auto& master = part.master(name);
+            auto* interconnect = dynamic_cast<xilinx::AxiInterconnect*>(&way);
+            if (interconnect) return interconnect->connect(master.read, master.write);
             master.read.link.socket.bind(way.socket);
             master.write.link.socket.bind(way.socket);
           },

@@ -1,3 +1,4 @@
+#include <chip/block_design/own_ip.h>
 #include <chip/block_design/shelf.h>
 
 #include <vp/text.h>
@@ -330,6 +331,7 @@ std::vector<IpRule> rules() {
       {"vio", Kind::left_out, "virtual pins of the debugger"},
       {"jtag_axi", Kind::left_out, "bus master of the debugger"},
       {"debug_bridge", Kind::left_out, "debugger"}};
+  for (const OwnIp& own : own_ips()) list.push_back(own.rule);
   std::sort(list.begin(), list.end(), [](const IpRule& a, const IpRule& b) { return a.ip < b.ip; });
   return list;
 }
@@ -369,21 +371,25 @@ std::string shelf_table() {
           parameter.most != 0 || (!parameter.allowed.empty() && parameter.allowed.front() != "*");
       if (has_limits) limits.push_back("`" + parameter.name + "` " + allowed_values(parameter));
     }
-    text += "| `" + rule.ip + "` | " + to_string(rule.kind) + " | " + rule.what + " | " +
+    const std::string of = rule.maker.empty() ? "" : " of `" + rule.maker + "`";
+    text += "| `" + rule.ip + "`" + of + " | " + to_string(rule.kind) + " | " + rule.what + " | " +
             vp::join(limits, "; ") + " |\n";
   }
   return text;
 }
 
-const IpRule* rule_for(const std::string& vlnv) {
+bool is_of(const IpRule& rule, const std::string& vlnv) {
   const std::vector<std::string> parts = vp::split(vlnv, ':');
-  if (parts.size() != 4) return nullptr;
-  const bool is_vendors = (parts[0] == "xilinx.com" || parts[0] == "amd.com") &&
-                          (parts[1] == "ip" || parts[1] == "inline_hdl");
-  if (!is_vendors) return nullptr;
+  if (parts.size() != 4 || parts[2] != rule.ip) return false;
+  if (!rule.maker.empty()) return parts[0] + ":" + parts[1] == rule.maker;
+  return (parts[0] == "xilinx.com" || parts[0] == "amd.com") &&
+         (parts[1] == "ip" || parts[1] == "inline_hdl");
+}
+
+const IpRule* rule_for(const std::string& vlnv) {
   const auto& list = shelf();
-  const auto found = std::find_if(list.begin(), list.end(),
-                                  [&](const IpRule& rule) { return rule.ip == parts[2]; });
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const IpRule& rule) { return is_of(rule, vlnv); });
   return found == list.end() ? nullptr : &*found;
 }
 

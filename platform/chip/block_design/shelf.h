@@ -26,6 +26,9 @@ struct ParameterRule {
   std::string usual;                      ///< its value where the design says nothing
   std::vector<std::string> allowed = {};  ///< values that are modelled; empty: any number
   std::uint64_t least = 0, most = 0;      ///< of a number; 0 and 0: any
+  /// The parameter of the platform that it is, below the part: "fifo.depth"; empty: none, what
+  /// places the part reads it.
+  std::string sets = {};
 };
 
 /// What is known of an IP before it is placed.
@@ -34,16 +37,19 @@ struct IpRule {
   Kind kind;
   std::string what;  ///< for people: "AXI DMA, direct and scatter-gather (PG021)"
   std::vector<ParameterRule> parameters = {};
+  std::string maker = {};  ///< vendor and library, "me.org:user"; empty: those of the vendor's IP
 };
 
-/// All IP that the platform knows, by name.
+/// All IP that the platform and its application (own_ip.h) know, by name.
 const std::vector<IpRule>& shelf();
 
 /// All of it as a table of Markdown: what each IP is here, and which values of its parameters are
 /// modelled where not all are.
 std::string shelf_table();
 
-/// The rule for a VLNV; null for an IP that is not on the shelf, or not the vendor's.
+/// Whether the VLNV is one of this IP, in any version.
+bool is_of(const IpRule& rule, const std::string& vlnv);
+/// The rule for a VLNV; null for an IP that is not on the shelf.
 const IpRule* rule_for(const std::string& vlnv);
 
 /// The rule of a parameter; null if the IP has no such one that matters.

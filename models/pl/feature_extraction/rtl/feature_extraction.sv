@@ -11,6 +11,7 @@ module feature_extraction #(
     parameter int FIFO_DEPTH = 64,
     parameter int BURST_WORDS = 32
 ) (
+    (* X_INTERFACE_PARAMETER = "ASSOCIATED_BUSIF image:binary" *)
     input  logic        system_clk,
     input  logic        pixel_clk,
     input  logic        por,
@@ -24,6 +25,8 @@ module feature_extraction #(
     output logic        binary_tlast,
     input  logic        binary_tready,
     output logic [31:0] feature,
+    output logic        frame_ena,         // of the sensor; for simulations and reports, as what follows
+    output logic [ 7:0] active_threshold,
     output logic [31:0] label_overflow,
     output logic [31:0] crossing_overflow,
     output logic [31:0] feature_overflow,
@@ -78,7 +81,6 @@ module feature_extraction #(
       .dout_b(bram_dout)
   );
 
-  logic frame_ena;
   logic [7:0] pixel;
   logic [X_BITS-1:0] pixel_x;
   logic [Y_BITS-1:0] pixel_y;
@@ -123,8 +125,7 @@ module feature_extraction #(
   logic [Y_BITS-1:0] binary_y;
   logic [31:0] thresh_data;
   /* verilator lint_off UNUSEDSIGNAL */
-  logic [7:0] active_threshold;  // for simulations
-  logic busy;
+  logic busy;  // for simulations
   /* verilator lint_on UNUSEDSIGNAL */
   /* verilator lint_off PINCONNECTEMPTY */
   // One pixel comes on a clock.
