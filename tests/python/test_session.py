@@ -37,6 +37,18 @@ def test_standard_input_is_on_from_the_start(start):
     assert 1e-3 < board.time < 1.01e-3
 
 
+def test_the_c_library_reads_what_is_typed(start):
+    board = start(pathlib.Path(os.environ["MARKERVP_PROGRAM"]).with_name("typed.so"))
+    board.run("1 ms")
+    board.uart("42 is\r", device="uart1")
+    board.run("2 ms")
+    board.uart("two words\n", device="uart1")
+    assert board.finish()["program_end.exit_code"] == 0
+    assert board.console == ["42 is two words"]
+    # 17 characters of 10 bits at 115 200 baud, the second line from 3 ms on.
+    assert 3e-3 + 10 * 10 / 115200 < board.time < 3e-3 + 11 * 10 / 115200
+
+
 def test_memory_and_signals_are_read_and_written(board):
     board.write("ocm+0x100", 0x12345678)
     assert board.read("ocm+0x100") == 0x12345678
