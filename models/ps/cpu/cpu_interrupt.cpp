@@ -15,6 +15,9 @@ namespace {
 
 /// Handlers in a row after which an interrupt is taken to be unacknowledged (decision).
 constexpr unsigned many_handlers = 1'000;
+/// So often the loop behind main() looks whether anything is left to happen (decision): 1 ms. No
+/// result depends on it but the length of waveforms.
+constexpr std::uint64_t look_after_main_ps = 1'000'000'000;
 
 }  // namespace
 
@@ -84,6 +87,32 @@ void Cpu::leave_interrupt() {
   }
   spend_blocks();
   std::swap(ahead, timeline_);
+}
+
+bool Cpu::lives_after_main() const {
+  const bool served = interruptible() && handler_ && any_enabled_ && any_enabled_();
+  return (served || beside_other()) &&
+         (interrupt_due() || call_at_ps_ != vp::Clock::never || scheduler_.has_more());
+}
+
+// Behind main() the vendor's exit() loops for ever: interrupts are served, and the other core runs
+// on. The end is that of the last work that was done, or the time-out. A program that describes
+// itself ends with its entry function.
+void Cpu::stay_after_main() {
+  if (!program_->charge()) return;
+  spend_blocks();
+  catch_up();
+  main_end_ps_ = now_ps();
+  std::uint64_t worked_ps = now_ps();
+  while (lives_after_main()) {
+    pass(look_after_main_ps);
+    if (!interrupt_due()) continue;
+    take_interrupts();
+    worked_ps = now_ps();
+  }
+  worked_ps = std::max(worked_ps, cores_->all.back()->end_ps_);
+  works_after_main_ = worked_ps > *main_end_ps_;
+  over_ps_ = worked_ps;
 }
 
 void Cpu::wait_for_interrupt() {

@@ -68,6 +68,7 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual
       const ps::Gic::Request request = gic.request();
       return ps::Cpu::Request{request_text(gic, request), request.since_ps};
     });
+    core->tell_of_enabled([&gic] { return gic.logic().any_enabled(); });
     core->explain_waits(
         [this, &gic](const ps::Cpu::Wait& wait) { return reason_of_wait(*this, gic, wait); });
   }
