@@ -96,8 +96,8 @@ bool Cpu::lives_after_main() const {
 }
 
 // Behind main() the vendor's exit() loops for ever: interrupts are served, and the other core runs
-// on. The end is that of the last work that was done, or the time-out. A program that describes
-// itself ends with its entry function.
+// on. The end is that of the last work that was done, or the time-out. A program that counts its
+// work ends with its entry function.
 void Cpu::stay_after_main() {
   if (!program_->charge()) return;
   spend_blocks();
