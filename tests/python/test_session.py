@@ -97,7 +97,7 @@ def test_what_comes_at_the_very_end_of_a_wait_ends_no_later_one(start):
 
 
 @pytest.mark.parametrize("mistake, message", [
-    (lambda board: board.read("nosuch.DATA"), "no device 'nosuch': choose ddr"),
+    (lambda board: board.read("nosuch.DATA"), "no device 'nosuch': choose ocm_low, ddr"),
     (lambda board: board.read("axi_gpio_0.DATA"), "axi_gpio_0 has GPIO_DATA, GPIO_TRI"),
     (lambda board: board.read("axi_gpio_0"), "no register 'axi_gpio_0'"),
     (lambda board: board.read(0x20), "nothing answers at 0x00000020"),
