@@ -100,7 +100,7 @@ def test_what_comes_at_the_very_end_of_a_wait_ends_no_later_one(start):
     (lambda board: board.read("nosuch.DATA"), "no device 'nosuch': choose ocm_low, ddr"),
     (lambda board: board.read("axi_gpio_0.DATA"), "axi_gpio_0 has GPIO_DATA, GPIO_TRI"),
     (lambda board: board.read("axi_gpio_0"), "no register 'axi_gpio_0'"),
-    (lambda board: board.read(0x20), "nothing answers at 0x00000020"),
+    (lambda board: board.read(0x80020), "nothing answers at 0x00080020"),
     (lambda board: board.read("ddr+0x7fffffff"), "is not in ddr"),
     (lambda board: board.write("ocm", 1 << 32), "needs 'value', a whole number up to 4294967295"),
     (lambda board: board.signal("ps.gic.n_irk"), "did you mean 'ps.gic.n_irq'?"),
