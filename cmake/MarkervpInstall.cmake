@@ -141,6 +141,8 @@ install(FILES
   cmake/MarkervpRtl.cmake
   cmake/MarkervpProgram.cpp.in
   cmake/MarkervpCharge.cpp.in
+  cmake/MarkervpAssembly.cpp
+  cmake/MarkervpAssembly.h
   cmake/MarkervpHeap.cpp
   cmake/MarkervpRtl.cpp.in
   cmake/MarkervpVhdl.cmake

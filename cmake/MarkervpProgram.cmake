@@ -1,6 +1,7 @@
 set(markervp_program_template "${CMAKE_CURRENT_LIST_DIR}/MarkervpProgram.cpp.in")
 set(markervp_charge_template "${CMAKE_CURRENT_LIST_DIR}/MarkervpCharge.cpp.in")
 set(markervp_program_heap "${CMAKE_CURRENT_LIST_DIR}/MarkervpHeap.cpp")
+set(markervp_program_assembly "${CMAKE_CURRENT_LIST_DIR}/MarkervpAssembly")
 set(markervp_vendor_folder "${CMAKE_CURRENT_LIST_DIR}")
 
 # The folders of the vendor's drivers that VENDOR_BSP looks for: those whose devices are modelled are built, of the others a
@@ -195,7 +196,9 @@ function(markervp_add_program NAME)
     "$<$<COMPILE_LANGUAGE:C,CXX>:-fsanitize-coverage=trace-pc;-fstack-clash-protection>")
   # Its code takes time by what it is made of (ps.cpu.code_scale): the same at every optimisation of the build.
   if(NOT annotated)
+    target_sources(${NAME} PRIVATE "${markervp_program_assembly}.cpp")
     target_compile_options(${NAME} PRIVATE "$<$<COMPILE_LANGUAGE:C,CXX>:-O0>"
+      "$<$<COMPILE_LANGUAGE:C,CXX>:SHELL:-include \"${markervp_program_assembly}.h\">"
       # Its data have 32-bit addresses here, too: casts of pointers to u32 are right.
       "$<$<COMPILE_LANGUAGE:C>:-Wno-pointer-to-int-cast;-Wno-int-to-pointer-cast>" "$<$<COMPILE_LANGUAGE:CXX>:-fpermissive>")
   endif()

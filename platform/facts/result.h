@@ -239,6 +239,8 @@ struct ProgramEnd {
   std::uint64_t ps = 0;  ///< when, in simulated time
   /// It did not end by itself, but was in an endless loop when its time was up (ps.cpu.timeout).
   bool reached_limit = false;
+  /// When its main() returned, if interrupts or the other core had work after that.
+  std::optional<std::uint64_t> main_ps;
 };
 
 /// A fault that the configuration asked for (`inject`), and what came of it.

@@ -187,13 +187,21 @@ std::string verdict_text(const Verdict& verdict) {
 std::string end_text(const facts::RunFacts& facts) {
   const std::string none = facts.work.unit.empty() ? "" : "no " + facts.work.many() + ": ";
   if (!facts.end) return none + "the program was stopped";
+  const std::string end = vp::format_time(facts.end->ps);
+  if (facts.end->main_ps) {
+    return fmt::format(
+        "{}main() returned at {} with exit code {}; interrupts were still on, or the other core, "
+        "{}",
+        none, vp::format_time(*facts.end->main_ps), facts.end->exit_code,
+        facts.end->reached_limit ? "until the time limit, " + end + " (ps.cpu.after_main)"
+                                 : "and did their last work at " + end);
+  }
   if (facts.end->reached_limit) {
     return fmt::format(
-        "{}the program reached its time limit, {}, in an endless loop (ps.cpu.timeout)", none,
-        vp::format_time(facts.end->ps));
+        "{}the program reached its time limit, {}, in an endless loop (ps.cpu.timeout)", none, end);
   }
-  return fmt::format("{}the program ended at {} with exit code {}", none,
-                     vp::format_time(facts.end->ps), facts.end->exit_code);
+  return fmt::format("{}the program ended at {} with exit code {}", none, end,
+                     facts.end->exit_code);
 }
 
 /// design_text() with the energy of a `unit`.

@@ -42,7 +42,14 @@ Members<facts::ProgramEnd> program_end_members() {
       .figure({"reached_limit", "1", "1 if it was in an endless loop when its time was up"},
               [](const ProgramEnd& end) {
                 return end.reached_limit ? std::optional(true) : std::nullopt;
-              });
+              })
+      .figure(
+          {"main_us", "µs",
+           "when main() returned, if interrupts or the other core had work after it"},
+          [](const ProgramEnd& end) {
+            return end.main_ps ? std::optional(us(*end.main_ps)) : std::nullopt;
+          },
+          us_places);
 }
 
 Members<facts::Summary::Stage> stage_members() {

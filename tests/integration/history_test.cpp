@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told) {
     BOOST_TEST(outcome.exit_code == 2);
     BOOST_TEST(contains(outcome.err, message), outcome.err);
   };
-  fails({"axi_dma_7.S2MM_DA"}, "no device 'axi_dma_7': choose ddr, stacks, axi_dma_0");
+  fails({"axi_dma_7.S2MM_DA"}, "no device 'axi_dma_7': choose ocm_low, ddr, stacks, axi_dma_0");
   fails({"axi_dma_1.DA"}, "no register 'axi_dma_1.DA': axi_dma_1 has ");
   fails({"axi_dma_1.S2MM_DA", "--before", "soon"}, "--before 'soon' ");
   fails({"axi_dma_1.S2MM_DA"}, "cannot read result 'nowhere/result.json'", "nowhere");

@@ -131,6 +131,8 @@ class Checker {
     if (!keys(end, "program_end", {{"exit_code", Kind::number}, {"time_us", Kind::number}})) return;
     if (end.contains("reached_limit"))
       expect(end["reached_limit"] == true, "program_end.reached_limit is not true");
+    if (end.contains("main_us"))
+      expect(end["main_us"] <= end["time_us"], "program_end.main_us is after the end");
   }
 
   /// Only where faults were asked for.

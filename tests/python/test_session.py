@@ -37,6 +37,18 @@ def test_standard_input_is_on_from_the_start(start):
     assert 1e-3 < board.time < 1.01e-3
 
 
+def test_the_c_library_reads_what_is_typed(start):
+    board = start(pathlib.Path(os.environ["MARKERVP_PROGRAM"]).with_name("typed.so"))
+    board.run("1 ms")
+    board.uart("42 is\r", device="uart1")
+    board.run("2 ms")
+    board.uart("two words\n", device="uart1")
+    assert board.finish()["program_end.exit_code"] == 0
+    assert board.console == ["42 is two words"]
+    # 17 characters of 10 bits at 115 200 baud, the second line from 3 ms on.
+    assert 3e-3 + 10 * 10 / 115200 < board.time < 3e-3 + 11 * 10 / 115200
+
+
 def test_memory_and_signals_are_read_and_written(board):
     board.write("ocm+0x100", 0x12345678)
     assert board.read("ocm+0x100") == 0x12345678
@@ -85,10 +97,10 @@ def test_what_comes_at_the_very_end_of_a_wait_ends_no_later_one(start):
 
 
 @pytest.mark.parametrize("mistake, message", [
-    (lambda board: board.read("nosuch.DATA"), "no device 'nosuch': choose ddr"),
+    (lambda board: board.read("nosuch.DATA"), "no device 'nosuch': choose ocm_low, ddr"),
     (lambda board: board.read("axi_gpio_0.DATA"), "axi_gpio_0 has GPIO_DATA, GPIO_TRI"),
     (lambda board: board.read("axi_gpio_0"), "no register 'axi_gpio_0'"),
-    (lambda board: board.read(0x20), "nothing answers at 0x00000020"),
+    (lambda board: board.read(0x80020), "nothing answers at 0x00080020"),
     (lambda board: board.read("ddr+0x7fffffff"), "is not in ddr"),
     (lambda board: board.write("ocm", 1 << 32), "needs 'value', a whole number up to 4294967295"),
     (lambda board: board.signal("ps.gic.n_irk"), "did you mean 'ps.gic.n_irq'?"),

@@ -100,7 +100,7 @@ void Cpu::run() {
     deadline_.set_timeout(now_ps() + (number_ == 0 ? settings_.timeout.get() : longest_run_ps));
     follow_clock();
     start_ahead();
-    exit_code_ = call_program();
+    call_program();
     catch_up();
   } catch (const sc_core::sc_unwind_exception&) {
     throw;
@@ -126,7 +126,7 @@ void Cpu::end(State state) {
   if (moment_listener_) moment_listener_(Moment::call_over);
   scheduler_.rejoin();
   state_ = state;
-  end_ps_ = now_ps();
+  end_ps_ = over_ps_.value_or(now_ps());
   running_ = nullptr;
   ProgramWatch::end();
   ProgramWatch::charge = nullptr;

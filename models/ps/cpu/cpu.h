@@ -175,6 +175,10 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   /// The program has finished because it looped to its time limit, in a function that cannot
   /// return: its end by design, as on the chip.
   bool reached_limit() const { return reached_limit_; }
+  /// When its main() returned, in ps, if interrupts or the other core had work after that.
+  std::optional<std::uint64_t> main_end_ps() const {
+    return works_after_main_ || reached_limit_ ? main_end_ps_ : std::nullopt;
+  }
   /// Throws what ended the program: vp::ProtocolError, or what a model or the test bench threw.
   /// Nothing if it finished or was interrupted. A program that neither ended nor can go on is
   /// vp::ProtocolError too: call it after the simulation.
@@ -260,7 +264,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::string name_of_function() const;
   std::string name_of_handler() const;
   void check_memory() const;
-  int call_program();
+  void call_program();
   void go_on();
   void take_turn();
   [[noreturn]] void report(const vp::Fault& fault);
@@ -323,8 +327,11 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   }
   void run_handler();
   void leave_interrupt();
+  bool lives_after_main() const;
+  void stay_after_main();
   void tell_cache(CacheCall call, const void* data, std::size_t size) const;
   static bool on_fault(std::uintptr_t address, void* context);
+  bool reaches_by_pointer(std::uintptr_t address) const;
   static void make_access(PointerAccess& access);
   std::uint32_t access_part(bool read, std::uint32_t address, unsigned bytes, std::uint32_t value);
   void sleep();
@@ -388,6 +395,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   int exit_code_ = 0;
   std::uint64_t end_ps_ = 0;
   bool reached_limit_ = false;
+  std::optional<std::uint64_t> main_end_ps_;
+  std::optional<std::uint64_t> over_ps_;  ///< the end, where nothing was left to do after main()
+  bool works_after_main_ = false;
   std::exception_ptr error_;
   sc_core::sc_event ended_;
   sc_core::sc_event never_;

@@ -250,7 +250,7 @@ void Cpu::meet_deadline(const char* what, const std::string& hint) {
     deadline_.look();
     return;
   }
-  if (number_ == 0 && reach() != MachineCode::Reach::returns)
+  if (number_ == 0 && (main_end_ps_ || reach() != MachineCode::Reach::returns))
     end_at_limit(hint, std::string_view(what) != no_end);
   fail(std::string(what) + " within " + vp::format_time(settings_.timeout) +
        " of simulated time since the last input (" + settings_.timeout.name() + ")" + hint +

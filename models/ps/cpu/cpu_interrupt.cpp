@@ -10,6 +10,14 @@
 
 namespace ps {
 
+namespace {
+
+/// So often the loop behind main() looks whether anything is left to happen (decision): 1 ms. No
+/// result depends on it but the length of waveforms.
+constexpr std::uint64_t look_after_main_ps = 1'000'000'000;
+
+}  // namespace
+
 void Cpu::connect_interrupt(hal_interrupt_handler handler, void* context) {
   catch_up();
   irq_.connect(handler, context);
@@ -74,6 +82,34 @@ void Cpu::leave_interrupt() {
   }
   spend_blocks();
   std::swap(ahead, timeline_);
+}
+
+bool Cpu::lives_after_main() const {
+  const bool served = irq_.interruptible() && irq_.handler() && surroundings.any_interrupt();
+  return (served || beside_other()) &&
+         (interrupt_due() || deadline_.wants_look() || scheduler_.has_more());
+}
+
+// Behind main() the vendor's exit() loops for ever: interrupts are served, and the other core runs
+// on. The end is that of the last work that was done, or the time-out: a timer never ends, and a
+// clocked design costs the host's time. A program that counts its work ends with its entry
+// function.
+void Cpu::stay_after_main() {
+  if (!program_->charge()) return;
+  spend_blocks();
+  catch_up();
+  main_end_ps_ = now_ps();
+  if (!beside_other()) deadline_.shorten_timeout(now_ps() + settings_.after_main);
+  std::uint64_t worked_ps = now_ps();
+  while (lives_after_main()) {
+    pass(look_after_main_ps);
+    if (!interrupt_due()) continue;
+    take_interrupts();
+    worked_ps = now_ps();
+  }
+  worked_ps = std::max(worked_ps, cores_->all.back()->end_ps_);
+  works_after_main_ = worked_ps > *main_end_ps_;
+  over_ps_ = worked_ps;
 }
 
 void Cpu::wait_for_interrupt() {

@@ -19,6 +19,9 @@ constexpr unsigned most_doublings = 40;
 /// 10 us: it may wait for what the other core writes.
 constexpr unsigned most_beside_other = 10;
 constexpr std::uint64_t ps_per_ns = 1'000;
+/// UG585 table 4-1: on-chip memory below the DDR, and all that is no memory above it. What is near
+/// address 0 is a pointer that was never set.
+constexpr std::uintptr_t null_end = 0x1000, low_end = 0x4'0000, first_register = 0x4000'0000;
 /// Where basic blocks take time, that of so many passes at once (decision): the longest that an
 /// interrupt waits for a loop.
 constexpr std::uint64_t blocks_at_once = 64;
@@ -30,13 +33,13 @@ ProgramWatch::BlockCounts* ProgramWatch::block_counts = nullptr;
 CodeCharge* ProgramWatch::charge = nullptr;
 std::uint64_t ProgramWatch::counted_ = 0, ProgramWatch::counted_limit_ = ~std::uint64_t{0};
 
-int Cpu::call_program() {
+void Cpu::call_program() {
   struct Call {
     void (*boot)(void);
     int (*program)(void);
     void (*entry)(void);
-    int result;
-  } call{program_->boot(), program_->description().entry, entry_, 0};
+    Cpu& cpu;
+  } call{program_->boot(), program_->description().entry, entry_, *this};
   // The first core's looks after both.
   const HostLimit limit{number_ == 0 ? settings_.host_timeout / ps_per_ns : 0, &Cpu::progress,
                         this};
@@ -51,7 +54,8 @@ int Cpu::call_program() {
           call.entry();
         } else {
           if (call.boot) call.boot();
-          call.result = call.program();
+          call.cpu.exit_code_ = call.program();
+          call.cpu.stay_after_main();
         }
       },
       &call);
@@ -62,7 +66,6 @@ int Cpu::call_program() {
   if (fault) report(*fault);
   if (irq_.in_handler())
     break_off("the interrupt handler never returned: do not leave it by longjmp()");
-  return call.result;
 }
 
 // A second core runs the code of the first one's program.
@@ -134,7 +137,13 @@ void Cpu::report(const vp::Fault& fault) {
   } else if (fault.stack_overflow) {
     text += ": its " + std::to_string(settings_.stack_size / 1024) + " KiB are used up (" +
             settings_.stack_size.name() + ")";
-  } else if (fault.address_known && fault.address <= ~std::uint32_t{0}) {
+  } else if (fault.address_known && fault.address >= low_end && fault.address < program_->end()) {
+    text +=
+        ", where the program itself lies, and none of its variables: if it is to write there, put "
+        "it "
+        "elsewhere (target_link_options(… LINKER:-Ttext-segment=0x08000000))";
+  } else if (fault.address_known && fault.address >= null_end &&
+             fault.address <= ~std::uint32_t{0}) {
     const auto address = static_cast<std::uint32_t>(fault.address);
     const Answerer answerer = surroundings.device(address);
     text += surroundings.name_at(address);
@@ -149,11 +158,16 @@ void Cpu::report(const vp::Fault& fault) {
   break_off(text);
 }
 
+// Of a program that describes itself, a pointer below the DDR is a mistake.
+bool Cpu::reaches_by_pointer(std::uintptr_t address) const {
+  const bool low = address >= null_end && address < low_end && program_->charge() != nullptr;
+  return low || (address >= first_register && address <= ~std::uint32_t{0});
+}
+
 // In the signal handler of a segmentation fault.
 bool Cpu::on_fault(std::uintptr_t address, void* context) {
-  constexpr std::uintptr_t first_register = 0x4000'0000;  // UG585 table 4-1
   if (LineGuard::on_fault(address, context)) return true;
-  if (!ProgramWatch::runs || !running_ || address < first_register || address > ~std::uint32_t{0} ||
+  if (!ProgramWatch::runs || !running_ || !running_->reaches_by_pointer(address) ||
       running_->surroundings.device(static_cast<std::uint32_t>(address)).name.empty()) {
     return false;
   }
@@ -263,7 +277,7 @@ MachineCode::Reach Cpu::reach() const {
 void Cpu::end_at_limit(const std::string& hint, bool sleeps) {
   const bool waits =
       signs_.loops() ? reach() != MachineCode::Reach::straight : signs_.sees_no_change();
-  if (sleeps || waits) {
+  if (!main_end_ps_ && (sleeps || waits)) {
     vp::warn(*this, "/markervp/cpu/time_limit",
              "the program reached its time limit, " + vp::format_time(settings_.timeout) + " (" +
                  settings_.timeout.name() + "), in an endless loop" +

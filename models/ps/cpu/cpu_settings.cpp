@@ -17,6 +17,9 @@ CpuSettings::CpuSettings()
               "how far the program may run ahead of the simulation; no result depends on it"),
       timeout("timeout", 10_s, vp::Unit::time, {1_us, 1'000'000_s}, vp::Source::decision,
               "the run ends if the program neither ends nor asks for an input for so long"),
+      after_main("after_main", 100_ms, vp::Unit::time, {0, 1'000'000_s}, vp::Source::decision,
+                 "how long interrupts that a plain program left enabled are served behind its "
+                 "main(), at most"),
       host_timeout("host_timeout", 10_s, vp::Unit::time, {100_ms, 1'000'000_s},
                    vp::Source::decision,
                    "the run ends if the program takes so much of the host's processor time, or "

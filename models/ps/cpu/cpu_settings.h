@@ -13,6 +13,7 @@ struct CpuSettings {
   vp::Parameter<std::uint64_t> stack_size;
   vp::Parameter<std::uint64_t> quantum;
   vp::Parameter<std::uint64_t> timeout;
+  vp::Parameter<std::uint64_t> after_main;
   vp::Parameter<std::uint64_t> host_timeout;
   vp::Parameter<std::uint64_t> loop_blocks;
   vp::Parameter<std::uint32_t> interrupt_entry;

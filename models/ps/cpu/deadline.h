@@ -22,6 +22,8 @@ class Deadline {
     timeout_ps_ = ps;
     first_ps_ = std::min(timeout_ps_, look_ps_);
   }
+  void shorten_timeout(std::uint64_t ps) { set_timeout(std::min(timeout_ps_, ps)); }
+  bool wants_look() const { return look_ps_ != vp::Clock::never; }
   /// Once. Instead of the look that was wanted before.
   void want_look(std::uint64_t ps, std::function<void()> look) {
     look_ps_ = ps;

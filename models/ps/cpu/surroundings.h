@@ -13,7 +13,8 @@ struct Answerer {
   bool is_modelled = true;  ///< false: the chip has a block there, and the platform has none
 };
 
-/// What lies around a core, for its messages. Unless set: nothing is known of it.
+/// What lies around a core, for its messages, and for what it does behind main(). Unless set:
+/// nothing is known of it.
 struct Surroundings {
   /// Why nIRQ is low: the interrupt, and since when its line asks for it.
   struct Request {
@@ -32,6 +33,8 @@ struct Surroundings {
   std::function<Request()> request = [] { return Request{}; };
   /// Says what keeps the program waiting, as the end of a message ("; interrupt 61 …"), or "".
   std::function<std::string(const Wait&)> wait_reason = [](const Wait&) { return std::string(); };
+  /// Whether an interrupt of a device is enabled that would come to the core.
+  std::function<bool()> any_interrupt = [] { return false; };
 
   /// " (name)" for messages; empty if nothing is there.
   std::string name_at(std::uint32_t address) const;

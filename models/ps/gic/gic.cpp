@@ -68,6 +68,15 @@ void InterruptLogic::set_wire(std::uint32_t id, bool level) {
   wire.set(id, level);
 }
 
+bool InterruptLogic::any_enabled() const {
+  if ((icddcr & (gic::icddcr::EnableS | gic::icddcr::EnableNS)) == 0) return false;
+  if ((iccicr & (gic::iccicr::EnableS | gic::iccicr::EnableNS)) == 0) return false;
+  constexpr std::uint32_t by_software = (1u << gic::sgi_count) - 1;  // always enabled
+  std::uint32_t any = enabled.word(0) & targeted.word(0) & ~by_software;
+  for (unsigned n = 1; n < gic::bit_registers; ++n) any |= enabled.word(n) & targeted.word(n);
+  return any != 0;
+}
+
 // What the distributor lets through of interrupts 32 · n …
 std::uint32_t InterruptLogic::forwarded(unsigned n) const {
   const std::uint32_t groups = ((icddcr & gic::icddcr::EnableNS) != 0 ? non_secure.word(n) : 0) |

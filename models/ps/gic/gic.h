@@ -81,6 +81,8 @@ class InterruptLogic {
     static_assert(gic::bit_registers == 3);
     return (waiting(0) | waiting(1) | waiting(2)) != 0;
   }
+  /// An interrupt of a device is enabled that goes to this CPU, and is forwarded when it comes.
+  bool any_enabled() const;
   /// The line to the CPU that is asserted.
   enum class Line { none, irq, fiq };
   struct Signalled {

@@ -7,6 +7,7 @@
 #include <vp/clock.h>
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
+#include <vp/report.h>
 #include <vp/text.h>
 #include <algorithm>
 #include <cerrno>
@@ -313,7 +314,25 @@ Ocm::Ocm(sc_core::sc_module_name name, const vp::Clock& cpu_clock)
   show(memory_.data(), 0, size);
 }
 
+bool Ocm::is_at_top(std::uint64_t offset) const {
+  constexpr std::uint64_t quarter = size / 4;
+  return !at_top_ || (at_top_() >> offset / quarter & 1) != 0;
+}
+
 void Ocm::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  if (const std::uint64_t at = payload.get_address(); !is_at_top(at) && !warned_) {
+    warned_ = true;
+    vp::warn(*this, "/markervp/ocm/elsewhere",
+             "access to " + vp::hex(base + at) +
+                 ", where nothing is on the chip: this quarter of the on-chip memory is at " +
+                 vp::hex(at) +
+                 " after boot; move it to the top (SLCR_UNLOCK 0xDF0D, then OCM_CFG 0x1F), or use "
+                 "0xFFFF0000 and above");
+  }
+  take_time(payload, delay);
+}
+
+void Ocm::take_time(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   constexpr unsigned bytes_per_cycle = 8;  // a 64-bit port
   const unsigned length = payload.get_data_length();
   const unsigned further = length == 0 ? 0 : (length - 1) / bytes_per_cycle;
@@ -324,6 +343,19 @@ void Ocm::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& de
 
 sc_core::sc_time Ocm::latency(bool read) const {
   return vp::from_ps(cpu_clock_.duration_ps(read ? read_cycles : write_cycles));
+}
+
+OcmLow::OcmLow(sc_core::sc_module_name name, Ocm& ocm) : MemoryTarget(name), ocm_(ocm) {
+  show(ocm.contents().data(), 0, Ocm::size);
+}
+
+tlm::tlm_response_status OcmLow::check(const tlm::tlm_generic_payload& payload) const {
+  return ocm_.is_at_top(payload.get_address()) ? tlm::TLM_ADDRESS_ERROR_RESPONSE
+                                               : tlm::TLM_OK_RESPONSE;
+}
+
+void OcmLow::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  ocm_.take_time(payload, delay);
 }
 
 }  // namespace ps

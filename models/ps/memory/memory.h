@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <new>
 #include <optional>
 #include <string>
@@ -224,13 +225,38 @@ class Ocm : public vp::MemoryTarget {
 
   /// The bytes, for loading and for tests.
   std::vector<unsigned char>& contents() { return memory_; }
+  /// Where its quarters are (OCM_CFG.RAM_HI: a bit for each, 1 is at the top). Without it all are
+  /// at the top.
+  void follow(std::function<std::uint32_t()> at_top) { at_top_ = std::move(at_top); }
+  /// The quarter with the byte at `offset` is at the top.
+  bool is_at_top(std::uint64_t offset) const;
 
  private:
+  friend class OcmLow;
   void answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
+  void take_time(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   sc_core::sc_time latency(bool read) const override;
 
   const vp::Clock& cpu_clock_;
   std::vector<unsigned char> memory_;
+  std::function<std::uint32_t()> at_top_;
+  bool warned_ = false;
+};
+
+/// The quarters of the on-chip memory that are at address 0, as all but the last are after boot
+/// (UG585 chapter 29). Map it with relative addresses.
+class OcmLow : public vp::MemoryTarget {
+ public:
+  OcmLow(sc_core::sc_module_name name, Ocm& ocm);
+  const char* kind() const override { return "ps::OcmLow"; }
+
+ private:
+  tlm::tlm_response_status check(const tlm::tlm_generic_payload& payload) const override;
+  void answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
+  /// Software moves it: every access is looked at.
+  bool get_direct_mem_ptr(tlm::tlm_generic_payload&, tlm::tlm_dmi&) override { return false; }
+
+  Ocm& ocm_;
 };
 
 }  // namespace ps

@@ -14,7 +14,7 @@ namespace ps {
 
 namespace {
 
-constexpr std::uint32_t ocm_all_high = 0xF;
+constexpr std::uint32_t ocm_last_high = 0x8;  // UG585 chapter 29: 192 KiB are at address 0
 constexpr std::uint32_t dci_calibrated =
     slcr::ddriob_dci_status::LOCK | slcr::ddriob_dci_status::DONE;
 
@@ -35,7 +35,7 @@ constexpr BootValue boot_values[] = {
     {slcr::SPI_CLK_CTRL, 0x00000603},   // 1000 MHz / 6, both SPIs
     {slcr::FPGA_RST_CTRL, 0x00000000},
     {slcr::LVL_SHFTR_EN, slcr::lvl_shftr_en::all},
-    {slcr::OCM_CFG, ocm_all_high},
+    {slcr::OCM_CFG, ocm_last_high},
     {slcr::DDRIOB_DCI_CTRL, 0x00000823},
     {slcr::DDRIOB_DCI_STATUS, dci_calibrated},
 };
@@ -235,12 +235,6 @@ void Slcr::wire() {
   on_write(slcr::SCL, [this] { apply_locks(); });
   on_write(slcr::FPGA_RST_CTRL, [this] { update_fclk_resets(); });
   on_write(slcr::UART_RST_CTRL, [this] { update_uart_resets(); });
-  on_write(slcr::OCM_CFG, [this] {
-    if (registers[slcr::OCM_CFG] != ocm_all_high) {
-      vp::warn(*this, "/markervp/slcr/ocm_cfg",
-               "OCM_CFG moves on-chip memory to address 0: not modelled, it stays at the top");
-    }
-  });
   on_write(slcr::LVL_SHFTR_EN, [this] { level_shifters.set(registers[slcr::LVL_SHFTR_EN]); });
   on_write(slcr::PSS_RST_CTRL, [this] {
     if (registers[slcr::PSS_RST_CTRL] != 0) stop("resets the processing system (PSS_RST_CTRL)");

@@ -8,6 +8,7 @@
 #include <gic_registers.h>
 #include <ps/cpu/cpu.h>
 #include <ps/cpu/program_watch.h>
+#include <slcr_registers.h>
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
@@ -79,6 +80,8 @@ void LinuxRun::connect(Zynq& zynq, CacheContract& caches) {
         " B is allowed: raise 'ulimit -f', or choose a smaller ps.ddr.size");
   zynq_ = &zynq;
   caches_ = &caches;
+  constexpr std::uint32_t all_at_the_top = 0x1F;  // U-Boot, arch/arm/mach-zynq/cpu.c
+  zynq.ps.slcr.registers[slcr::OCM_CFG] = all_at_the_top;
   caches.check_owners(
       [this](std::uint64_t address, std::uint64_t bytes) { return owner_problem(address, bytes); });
   caches.name_calls("write 1 to sync_for_device", "write 1 to sync_for_cpu");

@@ -188,7 +188,7 @@ facts::RunFacts Simulation::facts() const {
   facts.warnings = late_warnings_;
   facts.injected = injector_->report();
   if (cpu.state() == ps::Cpu::State::finished) {
-    facts.end = {cpu.exit_code(), cpu.end_ps(), cpu.reached_limit()};
+    facts.end = {cpu.exit_code(), cpu.end_ps(), cpu.reached_limit(), cpu.main_end_ps()};
     facts.unpublished = bench_->unpublished();
   }
   facts.camera = bench_->camera_report();

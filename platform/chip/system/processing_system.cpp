@@ -121,6 +121,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       xadc("xadc", scheduler),
       devices(make_ps_devices(scheduler, cpu_1x_clk)),
       ocm("ocm", cpu_clk.clk),
+      ocm_low("ocm_low", ocm),
       ddr("ddr"),
       m_axi_gp0("m_axi_gp0", fclk_clk0.clk),
       s_axi_hp0("s_axi_hp0"),
@@ -132,6 +133,8 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
   cpu.m_axi.socket.bind(interconnect.socket);
   interconnect.map("m_axi_gp0", gp0_base, gp0_size, Addresses::absolute).bind(m_axi_gp0.socket);
   interconnect.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
+  interconnect.map("ocm_low", 0, ps::Ocm::size).bind(ocm_low.socket);
+  ocm.follow([this] { return slcr.registers[slcr::OCM_CFG]; });
   map_private_bus();
   map_peripherals();
   s_axi_hp0.map("ddr", ps::Ddr::base, ddr.size, Addresses::absolute).bind(ddr.socket);

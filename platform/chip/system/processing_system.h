@@ -105,6 +105,7 @@ class ProcessingSystem : public sc_core::sc_module {
   ps::XadcInterface xadc;
   const std::vector<PsDevice> devices;  ///< the other peripherals
   ps::Ocm ocm;
+  ps::OcmLow ocm_low;
   ps::Ddr ddr;
   static constexpr std::uint64_t gp0_base = 0x4000'0000, gp0_size = 0x4000'0000;  // UG585 table 4-1
   ps::GpPort m_axi_gp0;

@@ -12,7 +12,6 @@ struct PsBlock {
 };
 
 inline constexpr PsBlock ps_blocks[] = {
-    {0x1000, 0x3'F000, "On-chip memory at its low addresses (use 0xFFFC_0000 on)"},
     {0x8000'0000, 0x4000'0000, "M_AXI_GP1"},
     {0xE000'0000, 0x1000, "UART 0"},
     {0xE000'1000, 0x1000, "UART 1"},

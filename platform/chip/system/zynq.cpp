@@ -71,7 +71,8 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual
         },
         [this, &gic](const ps::Surroundings::Wait& wait) {
           return reason_of_wait(*this, gic, wait);
-        }};
+        },
+        [&gic] { return gic.logic().any_enabled(); }};
   }
 }
 

@@ -14,7 +14,6 @@ foreach(driver axicdma iic intc llfifo qspips spi sysmon uartlite wdtps)
 endforeach()
 _refuse("${copy}" xdevcfg.h xaxicdma_hw.h xiic_l.h xintc_l.h xllfifo_hw.h xqspips_hw.h xspi_l.h xsysmon_hw.h xuartlite_l.h
   xwdtps_hw.h xdevcfg_hw.h)
-_refuse("The memory is modelled; reach it with Xil_In32 and Xil_Out32, or through a pointer to its address" xbram.h xbram_hw.h)
 _refuse("There is no card in the platform's SDIO controllers. Leave the files out, or read them with fopen() from your \
 computer in this build" ff.h diskio.h xsdps.h)
 _refuse("There is no network at the platform's Ethernet controllers, and no lwIP in this board support package. Leave the \

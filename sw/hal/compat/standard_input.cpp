@@ -1,4 +1,4 @@
-// inbyte() of xil_printf.h.
+// inbyte() of xil_printf.h, and what the boot code does for it.
 #include <hal/hal.h>
 #include <uart_registers.h>
 #include <xil_printf.h>
@@ -13,6 +13,9 @@ constexpr std::uint32_t stdin_at(std::uint32_t offset) {
 
 extern "C" {
 
+/// Of c_input.cpp, where the program reads by the C library.
+void markervp_open_input() __attribute__((weak));
+
 /// The vendor's boot code leaves the UART of standard input on, 115 200 baud of 50 MHz, 8N1. The
 /// platform calls this before the entry function of a program that reads it, so that nothing is
 /// lost of what comes before its first read.
@@ -20,6 +23,7 @@ HAL_EXPORT void markervp_boot() {
   static bool done = false;
   if (done) return;
   done = true;
+  if (markervp_open_input) markervp_open_input();
   const std::uint32_t control = hal_read32(stdin_at(uart::CR));
   if ((control & uart::cr::RXEN) && !(control & uart::cr::RXDIS)) return;
   if (!(control & uart::cr::TXEN) || (control & uart::cr::TXDIS)) {

@@ -3,6 +3,7 @@
 
 #include <ps/interconnect/interconnect.h>
 #include <ps/memory/memory.h>
+#include <vp/report.h>
 #include <boost/test/unit_test.hpp>
 
 #include "bench.h"
@@ -15,6 +16,16 @@ namespace {
 struct OcmBench : Bench {
   OcmBench() { bus.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket); }
   ps::Ocm ocm{"ocm", cpu_clock};
+};
+
+struct MovedBench : OcmBench {
+  vp::ReportRouter reports;
+  explicit MovedBench(std::uint32_t at_top) : at_top(at_top) {
+    bus.map("ocm_low", 0, ps::Ocm::size).bind(low.socket);
+    ocm.follow([this] { return this->at_top; });
+  }
+  ps::OcmLow low{"ocm_low", ocm};
+  std::uint32_t at_top;
 };
 
 struct MasterBench : kit::Simulation {
@@ -47,6 +58,46 @@ BOOST_AUTO_TEST_CASE(a_program_reads_what_it_wrote_to_the_last_word) {
   BOOST_TEST(b.ocm.contents().back() == 0x9A);
   BOOST_TEST(b.ocm.reads == 3u);
   BOOST_TEST(b.ocm.writes == 2u);
+}
+
+BOOST_AUTO_TEST_CASE(three_quarters_are_at_0_after_boot_and_the_last_one_is_at_the_top) {
+  MovedBench b(0x8);
+  b.run([] {
+    hal_write32(0, 1);
+    hal_write32(0x2'FFFC, 2);
+    hal_write32(0xFFFF'0000, 3);
+    BOOST_TEST(hal_read32(0x2'FFFC) == 2u);
+    return 0;
+  });
+  BOOST_TEST(b.cpu.end_ps() == 4 * 24'000u);
+  BOOST_TEST(b.ocm.contents()[0] == 1);
+  BOOST_TEST(b.ocm.contents()[0x2'FFFC] == 2);
+  BOOST_TEST(b.ocm.contents()[0x3'0000] == 3);
+  BOOST_TEST(b.reports.count("/markervp/ocm/elsewhere") == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_quarter_that_is_at_0_is_told_once_where_it_is_used_at_the_top) {
+  MovedBench b(0x8);
+  b.run([] {
+    hal_write32(first, 1);
+    hal_write32(first + 4, 1);
+    return 0;
+  });
+  BOOST_TEST(b.reports.count("/markervp/ocm/elsewhere") == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_at_0_when_all_quarters_were_moved_to_the_top) {
+  for (const std::uint32_t address : {0u, 0x3'0000u}) {
+    MovedBench b(address == 0 ? 0x1F : 0x8);
+    b.run(
+        [=] {
+          hal_write32(address, 1);
+          return 0;
+        },
+        false);
+    const std::string error = b.failure();
+    BOOST_TEST(error.find("DECERR") != std::string::npos, error);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(bursts_take_a_cycle_for_each_further_8_bytes) {

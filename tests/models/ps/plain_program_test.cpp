@@ -26,6 +26,7 @@ enum class Case : std::uint32_t {
   uses_heap,
   overflows,
   computes,
+  leaves_interrupts_on,
   uses_pointers,
 };
 
@@ -141,6 +142,53 @@ BOOST_AUTO_TEST_CASE(an_endless_loop_by_design_ends_at_the_limit_without_failure
     BOOST_TEST(run.cpu.reached_limit());
     BOOST_TEST(run.cpu.end_ps() == 200'000'000u);
     BOOST_TEST(run.reports.warnings().empty());
+  }
+}
+
+// The loop behind main() is the vendor's exit().
+BOOST_AUTO_TEST_CASE(interrupts_are_served_after_main_until_nothing_is_left_to_happen) {
+  Run run("plain", {}, Case::leaves_interrupts_on);
+  run.cpu.surroundings.any_interrupt = [] { return true; };
+  run.device.written = [&](std::uint32_t) { run.n_irq = true; };
+  run.set_n_irq_at(500'000'000, false);
+  run.set_n_irq_at(7'000'000'000, false);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.cpu.exit_code() == 3);
+  BOOST_TEST(!run.cpu.reached_limit());
+  BOOST_TEST(run.written().size() == 2);
+  BOOST_TEST_REQUIRE(run.cpu.main_end_ps().has_value());
+  BOOST_TEST(*run.cpu.main_end_ps() < 1'000'000u);
+  BOOST_TEST(run.cpu.end_ps() == 7'000'168'750u);  // entry 100 ns, exit 60 ns, the handler's code
+  BOOST_TEST(run.reports.warnings().empty());
+}
+
+BOOST_AUTO_TEST_CASE(interrupts_without_end_are_served_after_main_up_to_the_limit) {
+  Run run("plain", {"cpu.after_main=3 ms"}, Case::leaves_interrupts_on);
+  run.cpu.surroundings.any_interrupt = [] { return true; };
+  run.device.written = [&](std::uint32_t) { run.n_irq = true; };
+  for (std::uint64_t ms = 1; ms <= 9; ++ms) run.set_n_irq_at(ms * 1'000'000'000 - 500'000, false);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.cpu.exit_code() == 3);
+  BOOST_TEST(run.cpu.reached_limit());
+  BOOST_TEST_REQUIRE(run.cpu.main_end_ps().has_value());
+  BOOST_TEST(run.cpu.end_ps() == *run.cpu.main_end_ps() + 3'000'000'000u);
+  BOOST_TEST(run.written().size() == 3);
+  BOOST_TEST(run.reports.warnings().empty());
+}
+
+BOOST_AUTO_TEST_CASE(main_is_the_end_where_no_interrupt_is_enabled_or_none_can_come) {
+  for (const bool enabled : {false, true}) {
+    Run run("plain", {}, Case::leaves_interrupts_on);
+    run.cpu.surroundings.any_interrupt = [=] { return enabled; };
+    if (!enabled) run.set_n_irq_at(500'000'000, false);
+    run.start();
+    run.cpu.check();
+    BOOST_TEST(run.cpu.exit_code() == 3);
+    BOOST_TEST(!run.cpu.main_end_ps().has_value());
+    BOOST_TEST(run.cpu.end_ps() < 1'000'000u);
+    BOOST_TEST(run.written().empty());
   }
 }
 

@@ -149,7 +149,7 @@ __attribute__((noinline)) void read_unmapped() {
   hal_read32(0x5000'0000);
 }
 
-/// The on-chip memory, where OCM_CFG could have it.
+/// The on-chip memory, where boot leaves it: no mistake.
 __attribute__((noinline)) void write_low_memory() {
   *reinterpret_cast<volatile int*>(std::uintptr_t{0x2'0000}) = 1;
 }

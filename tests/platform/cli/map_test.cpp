@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(unknown_device) {
   BOOST_TEST(run({"map", "axi_gpoi_0"}) == 2);
   BOOST_TEST(is_one_line_with(err,
                               "unknown device 'axi_gpoi_0': did you mean 'axi_gpio_0'? there are "
-                              "ddr, stacks, axi_dma_0, "),
+                              "ocm_low, ddr, stacks, axi_dma_0, "),
              err);
   BOOST_TEST(out == "");
   BOOST_TEST(run({"map", "xyz123abc"}) == 2);

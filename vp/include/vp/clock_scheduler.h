@@ -75,6 +75,8 @@ class ClockScheduler : public sc_core::sc_module {
     instant_ps_ = ps;
     return true;
   }
+  /// Something will still happen by itself: an edge that a module waits for, or an event.
+  bool has_more() const { return next_ps_ != Clock::never || sc_core::sc_pending_activity(); }
   /// Nothing happens up to `ps`, as far as that is known.
   bool is_quiet_until(std::uint64_t ps) const { return ps < next_ps_ && ps <= known_horizon(); }
   /// No clock edge up to now is left to run.

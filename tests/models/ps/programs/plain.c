@@ -84,6 +84,12 @@ static int compute(void) {
   return sum != 0 ? ticks : -1;
 }
 
+static int leave_interrupts_on(void) {
+  hal_interrupt_connect(on_tick, NULL);
+  hal_interrupt_enable(true);
+  return 3;
+}
+
 static int deep(int depth) {
   volatile char room[1000];
   room[0] = (char)depth;
@@ -118,6 +124,8 @@ int main(void) {
       return deep(1000000);
     case 8:
       return compute();
+    case 9:
+      return leave_interrupts_on();
     default:
       return registers_by_pointer();
   }
