@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(the_verdict_says_how_far_or_why_not) {
   facts::Summary summary;
   summary.add(found_frame("z1.0"));
   facts::RunFacts run = run_facts();
-  run.end = {0, 1'250'000'000};
+  run.end = {0, 1'250'000'000, false, {}};
   run.resources.emplace();
   run.resources->total.lut = 100;
   run.resources->available.lut = 150;
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(the_verdict_says_how_far_or_why_not) {
 BOOST_AUTO_TEST_CASE(an_empty_run) {
   facts::RunFacts run = run_facts();
   BOOST_TEST(contains(result::summary_text({}, run), "no frames: the program was stopped   ("));
-  run.end = {7, 1'250'000'000};
+  run.end = {7, 1'250'000'000, false, {}};
   BOOST_TEST(contains(result::summary_text({}, run),
                       "no frames: the program ended at 1.25 ms with exit code 7   ("));
 }

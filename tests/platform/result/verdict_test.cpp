@@ -40,7 +40,7 @@ ClockReport::Clock clock(const char* name, double margin_percent, bool makeable 
 /// A point without fault.
 struct Point {
   Point() {
-    facts.end = ProgramEnd{0, 1};
+    facts.end = ProgramEnd{0, 1, false, {}};
     facts.resources.emplace();
     facts.resources->device = "xc7z010";
     facts.resources->total = {100, 50, 40, 0};
@@ -100,11 +100,11 @@ BOOST_AUTO_TEST_CASE(a_point_without_fault_has_its_margins) {
 
 BOOST_AUTO_TEST_CASE(a_program_that_does_not_end_well) {
   Point point;
-  point.facts.end = ProgramEnd{3, 1};
+  point.facts.end = ProgramEnd{3, 1, false, {}};
   point.fails("ran", Holds::no, "the program ended with exit code 3");
   point.facts.end.reset();
   point.fails("ran", Holds::no, "the program did not end");
-  point.facts.end = ProgramEnd{0, 1};
+  point.facts.end = ProgramEnd{0, 1, false, {}};
   point.facts.incomplete = "interrupted";
   point.fails("ran", Holds::no, "interrupted");
 }
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(a_design_that_delivers_nothing_ends_well_or_not) {
   point.facts.work = {"", "the program ends well"};
   BOOST_TEST((point.verdict().feasible() == Holds::yes));
   BOOST_TEST(!point.part("job").margin_percent.has_value());
-  point.facts.end = ProgramEnd{3, 1};
+  point.facts.end = ProgramEnd{3, 1, false, {}};
   point.fails("ran", Holds::no, "the program ended with exit code 3");
 }
 
@@ -283,7 +283,7 @@ BOOST_AUTO_TEST_CASE(the_worst_part_decides) {
   Point point;
   point.facts.resources.reset();
   point.fails("fits", Holds::unknown, "fits not known");
-  point.facts.end = ProgramEnd{1, 1};
+  point.facts.end = ProgramEnd{1, 1, false, {}};
   BOOST_TEST((point.verdict().feasible() == Holds::no));
   BOOST_TEST(point.verdict().reasons() ==
              (std::vector<std::string>{"the program ended with exit code 1", "fits not known"}));
