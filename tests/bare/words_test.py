@@ -16,7 +16,7 @@ INNOCENT = re.compile(
         r"markervp",
         r"image/(svg\+xml|png)|new Image\(\)|drawImage|toDataURL|new Blob|blob:|markLine|markPoint",  # of browsers and charts
         r"images? of (the|this|a) process|StaticImage|ProgramImage|program_image|image(_|\(\))|ELF image",
-        r"--marker\b|add_option\(\"--marker\"|marker_ps|named markers|(options|target)\.marker\b|output, marker, timescale|a line at a time",
+        r"--marker\b|add_option\(\"--marker\"|marker_ps|markerTime|named markers|(options|target)\.marker\b|output, marker, timescale|a line at a time",
         r"hypervolume.*corner|corner\b.*(reference|hypervolume|compute)|const corners = |corners\(event\)",
     ]),
     re.IGNORECASE)

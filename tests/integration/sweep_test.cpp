@@ -275,6 +275,7 @@ BOOST_FIXTURE_TEST_CASE(every_metric_has_a_meaning, Sweeps) {
   }
   for (const char* rare : {"summary.unpublished",        // a program said nothing of a frame
                            "program_end.reached_limit",  // it was stopped in an endless loop
+                           "program_end.main_us",        // its main() left interrupts on
                            "injected.*.times", "injected.*.first_us",  // faults were asked for
                            "clocks.list.*.legal_mhz",                  // a clock is too fast
                            "frames.settling_showings",  // the logic learns from an input

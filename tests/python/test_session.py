@@ -37,6 +37,12 @@ def test_standard_input_is_on_from_the_start(start):
     assert 1e-3 < board.time < 1.01e-3
 
 
+def test_where_nothing_is_typed_the_message_says_how(start):
+    board = start(pathlib.Path(os.environ["MARKERVP_PROGRAM"]).with_name("typed.so"), set={"ps.cpu.timeout": "5 ms"})
+    with pytest.raises(markervp.Error, match="nothing comes to uart1: type with --terminal uart1=NAME"):
+        board.finish()
+
+
 def test_the_c_library_reads_what_is_typed(start):
     board = start(pathlib.Path(os.environ["MARKERVP_PROGRAM"]).with_name("typed.so"))
     board.run("1 ms")

@@ -111,7 +111,7 @@ std::string title(const sc_core::sc_object& object) {
       {"ps::Slcr", "System level control registers"},
       {"ps::Uart", "UART"},
       {"ps::Ocm", "On-chip memory"},
-      {"ps::OcmLow", "On-chip memory, quarters that OCM_CFG has at address 0"},
+      {"ps::OcmLow", "On-chip memory at 0 (OCM_CFG)"},
       {"ps::Ddr", "DDR memory"},
       {"xilinx::AxiDma", "AXI DMA (PG021)"},
       {"xilinx::AxiGpio", "AXI GPIO (PG144)"},

@@ -210,6 +210,16 @@ std::string state_of_dma(Zynq& zynq, const MappedDevice& device, bool sends) {
   return state_of_channel(look, device.name, sends ? "MM2S" : "S2MM", waits, stream);
 }
 
+/// The program looks for a character that nothing sends.
+std::string nothing_typed(Zynq& zynq, const MappedDevice& device, std::uint32_t polled) {
+  const bool is_uart = device.base == uart::uart0_base || device.base == uart::uart1_base;
+  if (!is_uart || polled != device.base + uart::SR) return {};
+  if ((Look(zynq, device)["SR"] & uart::sr::REMPTY) == 0) return {};
+  return fmt::format(
+      "nothing comes to {}: type with --terminal {}=NAME, or by uart() of a test in Python",
+      device.name, device.name);
+}
+
 }  // namespace
 
 std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Surroundings::Wait& wait) {
@@ -234,7 +244,10 @@ std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Surrounding
                     high ? "has been high since" : "rose at",
                     vp::format_time(gic.risen_ps(interrupt.id)), why));
   }
-  for (const MappedDevice& device : map.devices) add(kept_at_device(zynq, device));
+  for (const MappedDevice& device : map.devices) {
+    add(kept_at_device(zynq, device));
+    if (wait.polled) add(nothing_typed(zynq, device, *wait.polled));
+  }
   std::string text;
   for (const std::string& reason : reasons) text += "; " + reason;
   return text;

@@ -210,7 +210,7 @@ BOOST_FIXTURE_TEST_CASE(segments_follow_the_crossbar_s_rules, Bench) {
   interconnect.map("axi_gpio_0", 0x41200000, 0x10000);
   interconnect.map("axi_gpio_1", 0x41210000, 0x10000);
   BOOST_CHECK_THROW(interconnect.map("odd", 0x41300000, 0x3000), vp::InputError);
-  BOOST_CHECK_THROW(interconnect.map("small", 0x41300000, 0x800), vp::InputError);
+  BOOST_CHECK_THROW(interconnect.map("small", 0x41300000, 0x40), vp::InputError);
   BOOST_CHECK_THROW(interconnect.map("misplaced", 0x41308000, 0x10000), vp::InputError);
   BOOST_CHECK_THROW(interconnect.map("overlapping", 0x41200000, 0x20000), vp::InputError);
   BOOST_TEST(interconnect.find(0x4121FFFC)->name == "axi_gpio_1");

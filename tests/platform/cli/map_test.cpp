@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(unknown_device) {
              err);
   BOOST_TEST(out == "");
   BOOST_TEST(run({"map", "xyz123abc"}) == 2);
-  BOOST_TEST(is_one_line_with(err, "unknown device 'xyz123abc': there are ddr"), err);
+  BOOST_TEST(is_one_line_with(err, "unknown device 'xyz123abc': there are ocm_low, ddr"), err);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

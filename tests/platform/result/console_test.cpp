@@ -207,6 +207,14 @@ BOOST_AUTO_TEST_CASE(an_empty_run) {
   run.end = {7, 1'250'000'000, false, {}};
   BOOST_TEST(contains(result::summary_text({}, run),
                       "no frames: the program ended at 1.25 ms with exit code 7   ("));
+  run.end = {0, 1'250'000'000, false, 250'000'000};
+  BOOST_TEST(
+      contains(result::summary_text({}, run),
+               "no frames: main() returned at 250 us with exit code 0; interrupts were still "
+               "on, or the other core, and did their last work at 1.25 ms   ("));
+  run.end->reached_limit = true;
+  BOOST_TEST(contains(result::summary_text({}, run),
+                      "until the time limit, 1.25 ms (ps.cpu.after_main)   ("));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
