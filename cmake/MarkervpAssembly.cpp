@@ -1,5 +1,6 @@
-// What the macros of MarkervpAssembly.h call. An instruction changes no register, so all that a function may change are kept but those
-// of floating point: no value stays in them between two statements, as programs are compiled with -O0.
+// What the macros of MarkervpAssembly.h call. An instruction changes no register, so all that a
+// function may change are kept but those of floating point: no value stays in them between two
+// statements, as programs are compiled with -O0.
 #include <hal/hal.h>
 
 #if defined(__x86_64__)

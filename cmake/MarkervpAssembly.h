@@ -18,7 +18,8 @@ __asm__(
     ".macro cpsid flags\n.ifnc \\flags, f\n markervp_instruction cpsid\n.endif\n.endm\n"
     ".irp name, mrc, mcr, mrs, msr\n"
     ".macro \\name operands:vararg\n"
-    "  .error \"the processor's own registers (\\name) are not modelled: leave the access out in this build, or "
+    "  .error \"the processor's own registers (\\name) are not modelled: leave the access out in "
+    "this build, or "
     "use Xil_DCache..., Xil_SetTlbAttributes() or Xil_ExceptionEnable()\"\n"
     ".endm\n"
     ".endr\n");

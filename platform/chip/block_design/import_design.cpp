@@ -407,7 +407,7 @@ class Writer {
     constexpr std::uint64_t gp0 = 0x4000'0000, gp1 = 0x8000'0000, end = 0xC000'0000;
     if (&module != &handoff_.ps() || segment.base < gp0 || segment.base >= end)
       return segment.master;
-    const std::string port = segment.base < gp1 ? "M_AXI_GP0" : "M_AXI_GP1";
+    std::string port = segment.base < gp1 ? "M_AXI_GP0" : "M_AXI_GP1";
     const BusInterface* bus = module.interface(port);
     if (port == segment.master || !bus || bus->bus.empty()) return segment.master;
     result_.notes.push_back("the hand-off has " + segment.instance + " at " +

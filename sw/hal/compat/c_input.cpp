@@ -58,10 +58,13 @@ MARKERVP_SCANF(c99, "__isoc99_")
 MARKERVP_SCANF(c23, "__isoc23_")
 #undef MARKERVP_SCANF
 
-int getchar() {
+// The host's headers have bodies of these.
+int markervp_getchar() __asm__("getchar");
+int markervp_getchar() {
   return std::getc(stdin);
 }
-int getchar_unlocked() {
+int markervp_getchar_unlocked() __asm__("getchar_unlocked");
+int markervp_getchar_unlocked() {
   return std::getc(stdin);
 }
 
