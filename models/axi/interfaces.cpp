@@ -251,7 +251,7 @@ bool Finder::is_low(const std::string& name, const std::string& said) const {
                            "' does not say at which level it resets: the vendor's "
                            "tools take it for low, most sources mean high; say INTERFACES \"" +
                            name + ": reset high\" or \"" + name + ": reset low\", or \"" + name +
-                           ": wire\" if it is none");
+                           ": wire\" if it resets nothing");
 }
 
 Interface Finder::single(std::uint32_t number) const {

@@ -222,7 +222,7 @@ std::string surfer_commands(const SaveFile& save) {
 std::string vaporview_settings(const SaveFile& save) {
   using Json = nlohmann::ordered_json;
   Json groups = Json::array();
-  // Signals before the first title stand beside the groups.
+  // Signals before the first title are in no group.
   Json* signals = &groups;
   for (const SaveFile::Line& line : save.lines) {
     if (line.title) {
