@@ -44,13 +44,17 @@ inline SlavePort registers(vp::RegisterBank& bank) {
   return {[&bank](RegionSocket& socket) { socket.bind(bank.socket); }};
 }
 
-/// A memory master of a model. An interconnect is larger with each of them.
+/// Binds what belongs to one memory master. An interconnect is larger with each of them.
+template <class... Ports>
+void bind_master(vp::Router& way, Ports&... ports) {
+  auto* interconnect = dynamic_cast<xilinx::AxiInterconnect*>(&way);
+  if (interconnect) return interconnect->connect(ports...);
+  (ports.link.socket.bind(way.socket), ...);
+}
+
+/// A memory master of a model.
 inline MasterPort memory_master(xilinx::MemoryPort& port) {
-  return {[&port](vp::Router& way) {
-            auto* interconnect = dynamic_cast<xilinx::AxiInterconnect*>(&way);
-            if (interconnect) return interconnect->connect(port);
-            port.link.socket.bind(way.socket);
-          },
+  return {[&port](vp::Router& way) { bind_master(way, port); },
           [&port](xilinx::MemoryPath& path) { port.share(path); }};
 }
 

@@ -1,9 +1,9 @@
 #include <axi/interfaces.h>
 #include <axi/rtl_part.h>
 #include <chip/block_design/place.h>
+#include <chip/block_design/place_ports.h>
 #include <strings.h>
 #include <vp/error.h>
-#include <xilinx/axi_interconnect/axi_interconnect.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -36,10 +36,7 @@ std::string name_in_design(const Placement& at, const std::string& name) {
 MasterPort master_of(axi::RtlPart& part, const std::string& name) {
   return {[&part, name](vp::Router& way) {
             auto& master = part.master(name);
-            auto* interconnect = dynamic_cast<xilinx::AxiInterconnect*>(&way);
-            if (interconnect) return interconnect->connect(master.read, master.write);
-            master.read.link.socket.bind(way.socket);
-            master.write.link.socket.bind(way.socket);
+            bind_master(way, master.read, master.write);
           },
           [&part, name](xilinx::MemoryPath& path) {
             part.master(name).read.share(path);
