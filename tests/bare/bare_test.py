@@ -82,6 +82,17 @@ class Bare(unittest.TestCase):
         self.assertIn("job not done in 2 of 3 blocks, first in 2", self.call(*wrong, "--require-job", code=1))
         self.assertEqual(self.result("wrong")["verdict"]["job"]["holds"], "no")
 
+    def test_a_block_that_never_ends(self):
+        """Its last word is lost on the way to the filter: the program waits for good. The blocks before stay."""
+        for fidelity in ("tlm", "clocked"):
+            said = self.call("run", *self.ramp, "--fidelity", fidelity, "--no-report", "-o", "endless", "--set", "ps.cpu.timeout=1 ms",
+                             "--set", "inject=[{what: dropped, where: pl.samples, beat: 128}]", code=3)
+            self.assertIn("INFEASIBLE: stopped by an error", said)
+            self.assertRegex(said, "no end within 1 ms of simulated time .*axi_dma_1 S2MM has a transfer under way, and no data come")
+            self.assertRegex(said, r"called from filter \(.*filtering.cpp:\d+\)")
+            result = self.result("endless")
+            self.assertEqual(([unit["index"] for unit in result["frames"]], result["summary"]["delivered"]), ([0], 1))
+
     def test_inputs_that_do_not_fit(self):
         (self.folder / "odd.bin").write_bytes(b"abc")
         self.assertIn("3 bytes are no whole number of blocks", self.call("run", "odd.bin", *self.fir, code=2))
