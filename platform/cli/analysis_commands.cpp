@@ -143,6 +143,7 @@ int find_pareto(const ParetoOptions& options, std::ostream& out, std::ostream& e
     study::check_names(results, constraint);
   study::Pareto pareto = study::rank(results, objectives);
   study::judge_by_bands(pareto, objectives);
+  study::find_better(pareto, objectives);
   const auto is_best = [](const study::RankedPoint& point) { return point.front == 1; };
   if (std::none_of(pareto.points.begin(), pareto.points.end(), is_best))
     throw vp::InputError(study::why_no_point(results));
@@ -239,8 +240,9 @@ int make_report(const ReportOptions& options, std::ostream& out, std::ostream& e
       const study::Store store(folder);
       study::Manifest manifest = store.read_manifest();
       const auto shards = shards_of(store, manifest, err);
-      study::write_page(study::read_results(shards, std::move(manifest), study::page_figures()),
-                        folder);
+      const study::Results results =
+          study::read_results(shards, std::move(manifest), study::page_figures());
+      study::write_page(results, folder, page_extras(results));
     } else {
       page::write_report(folder);
     }

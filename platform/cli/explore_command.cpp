@@ -248,9 +248,11 @@ int find_step_effects(const SensitivityOptions& options, std::ostream& out, std:
   out << study::effects_table(effects) << "\n";
   const std::string csv = store.path("steps.csv");
   vp::write_file_durably(csv, study::effects_csv(effects));
-  const bool page =
-      study::write_page(study::read_results(shards, std::move(manifest), study::page_figures()),
-                        store.folder(), study::effects_json(effects, results.rows.front().key));
+  const study::Results whole =
+      study::read_results(shards, std::move(manifest), study::page_figures());
+  study::Json more = page_extras(whole);
+  more["steps"] = study::effects_json(effects, results.rows.front().key);
+  const bool page = study::write_page(whole, store.folder(), more);
   out << "wrote " << csv << (page ? ", report.html" : "") << std::endl;
   return done;
 }

@@ -17,6 +17,7 @@
 #include <result/metrics.h>
 #include <result/table.h>
 #include <study/engine.h>
+#include <study/explore/progress.h>
 #include <study/report.h>
 #include <study/results.h>
 #include <study/spec.h>
@@ -191,6 +192,13 @@ study::Tally compute(const SweepOptions& options, const study::Store& store,
   return run_local(store, manifest, pending, local, run_point, progress);
 }
 
+study::Json page_extras(const study::Results& results) {
+  study::Json extras = study::Json::object();
+  study::Json progress = explore::progress_json(results);
+  if (!progress.is_null()) extras["progress"] = std::move(progress);
+  return extras;
+}
+
 void write_results(const SweepOptions& options, const study::Store& store,
                    const study::Shards& shards, const study::Results& results,
                    std::uint64_t computed, std::uint64_t before, std::ostream& out) {
@@ -199,7 +207,8 @@ void write_results(const SweepOptions& options, const study::Store& store,
     study::write_database(store.path("sweep.sqlite"), results, shards);
   });
   study::write_csv(store.path("sweep.csv"), results);
-  const bool page = !options.no_report && study::write_page(results, store.folder());
+  const bool page =
+      !options.no_report && study::write_page(results, store.folder(), page_extras(results));
   const std::string text = study::sweep_text(results);
   database.get();
   out << text << "\n"

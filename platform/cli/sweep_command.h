@@ -62,6 +62,9 @@ study::Tally compute(const SweepOptions& options, const study::Store& store,
                      const study::OnProgress& progress, std::ostream& err,
                      const study::IsOver& is_over = {});
 
+/// What the page of such points has besides them: how a search went.
+study::Json page_extras(const study::Results& results);
+
 /// Writes tables, database and page, and says what was found. `computed` now, `before` earlier.
 void write_results(const SweepOptions& options, const study::Store& store,
                    const study::Shards& shards, const study::Results& results,

@@ -214,6 +214,41 @@ void judge_by_bands(Pareto& pareto, const std::vector<Objective>& objectives) {
   for (std::size_t i = 0; i < ranked.size(); ++i) ranked[i]->dominated = dominated[i];
 }
 
+void find_better(Pareto& pareto, const std::vector<Objective>& objectives) {
+  const std::vector<bool> maximise = directions(objectives);
+  std::vector<std::size_t> best;
+  std::vector<double> low(maximise.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> high(maximise.size(), -std::numeric_limits<double>::infinity());
+  for (std::size_t p = 0; p < pareto.points.size(); ++p) {
+    const RankedPoint& point = pareto.points[p];
+    if (point.front == 0) continue;
+    if (point.front == 1) best.push_back(p);
+    for (std::size_t i = 0; i < maximise.size(); ++i) {
+      low[i] = std::min(low[i], point.figures[i]);
+      high[i] = std::max(high[i], point.figures[i]);
+    }
+  }
+  const auto least_gain = [&](const RankedPoint& better, const RankedPoint& worse) {
+    double least = 1;
+    for (std::size_t i = 0; i < maximise.size(); ++i) {
+      if (high[i] == low[i]) continue;
+      const double gain = better.figures[i] - worse.figures[i];
+      least = std::min(least, (maximise[i] ? gain : -gain) / (high[i] - low[i]));
+    }
+    return least;
+  };
+  for (RankedPoint& point : pareto.points) {
+    if (point.front < 2) continue;
+    double most = -1;
+    for (const std::size_t p : best) {
+      const double gain = least_gain(pareto.points[p], point);
+      if (gain <= most || !dominates(pareto.points[p].figures, point.figures, maximise)) continue;
+      most = gain;
+      point.better = p;
+    }
+  }
+}
+
 std::vector<Objective> objectives_of(const Results& results) {
   std::vector<std::string> texts = results.manifest.objectives;
   if (texts.empty()) texts.assign(usual_objectives.begin(), usual_objectives.end());
@@ -358,6 +393,9 @@ void write_pareto_csv(const std::string& path, const Results& results,
   for (const std::string& swept : results.manifest.swept) head.push_back(swept);
   for (const Objective& objective : objectives)
     head.push_back((objective.maximise() ? "max " : "min ") + objective.figure().text());
+  head.emplace_back("better");
+  for (const Objective& objective : objectives)
+    head.push_back("better by " + objective.figure().text());
   file.write(result::csv_line(head));
   for (std::size_t i = 0; i < pareto.points.size(); ++i) {
     const RankedPoint& point = pareto.points[i];
@@ -367,6 +405,12 @@ void write_pareto_csv(const std::string& path, const Results& results,
     for (const std::string& swept : results.manifest.swept)
       fields.push_back(point.row->value(swept));
     for (const double figure : point.figures) fields.push_back(result::csv_number(figure));
+    if (point.better) {
+      const RankedPoint& better = pareto.points[*point.better];
+      fields.push_back(better.row->key);
+      for (std::size_t o = 0; o < objectives.size(); ++o)
+        fields.push_back(result::csv_number(std::abs(better.figures[o] - point.figures[o])));
+    }
     fields.resize(head.size());
     file.write(result::csv_line(fields));
   }

@@ -37,6 +37,8 @@ struct RankedPoint {
   std::size_t front = 0;  ///< 1: nothing is better in all objectives; 2: once the first front
                           ///< is taken away; … 0: not feasible, without figures, or the same as
                           ///< an earlier one
+  /// Position in Pareto::points of the one on the first front that beats it (find_better()).
+  std::optional<std::size_t> better;
 };
 
 struct Pareto {
@@ -64,6 +66,11 @@ inline constexpr std::array<const char*, 2> usual_objectives{"max summary.fps.me
 
 /// Fills in what the bands of the figures leave of the order.
 void judge_by_bands(Pareto& pareto, const std::vector<Objective>& objectives);
+
+/// For each point behind the first front, the point of that front that beats it: of several the one
+/// whose least gain of all objectives is the largest, each gain as a part of the objective's range
+/// over all ranked points; of equal ones the earlier.
+void find_better(Pareto& pareto, const std::vector<Objective>& objectives);
 
 /// The study's objectives, or the usual ones; without those that no point has a value of.
 std::vector<Objective> objectives_of(const Results& results);
@@ -93,8 +100,8 @@ std::string doubt_text(const Pareto& pareto);
 std::string pareto_table(const Results& results, const std::vector<Objective>& objectives,
                          const Pareto& pareto);
 /// All points: key, front, knee, feasible and dominated (yes, no or unknown; the latter empty
-/// where it is not judged), swept parameters, objectives.
-/// Throws vp::OutputError.
+/// where it is not judged), swept parameters, objectives; behind the front the key of the point
+/// that beats it (find_better()), and by how much in each objective. Throws vp::OutputError.
 void write_pareto_csv(const std::string& path, const Results& results,
                       const std::vector<Objective>& objectives, const Pareto& pareto);
 

@@ -218,19 +218,34 @@ Json point_json(const Results& results, const ResultRow& row, const std::vector<
   return json;
 }
 
-/// The front of each row; 0 for none.
-std::vector<std::size_t> fronts_of(const Results& results,
+/// Where a row is among the others.
+struct Standing {
+  std::size_t front = 0;              ///< 0 for none
+  std::optional<std::size_t> better;  ///< the row that beats it
+};
+
+/// Of each row.
+std::vector<Standing> standings_of(const Results& results,
                                    const std::vector<Objective>& objectives) {
-  std::vector<std::size_t> found(results.rows.size(), 0);
-  for (const RankedPoint& point : rank(results, objectives).points)
-    found[static_cast<std::size_t>(point.row - results.rows.data())] = point.front;
+  std::vector<Standing> found(results.rows.size());
+  Pareto pareto = rank(results, objectives);
+  find_better(pareto, objectives);
+  const auto place_of = [&](const RankedPoint& point) {
+    return static_cast<std::size_t>(point.row - results.rows.data());
+  };
+  for (const RankedPoint& point : pareto.points) {
+    Standing& standing = found[place_of(point)];
+    standing.front = point.front;
+    if (point.better) standing.better = place_of(pareto.points[*point.better]);
+  }
   return found;
 }
 
 /// The rows that the page has room for: all of the first front, and of the others every so many.
-std::vector<std::size_t> page_rows(const std::vector<std::size_t>& fronts) {
+std::vector<std::size_t> page_rows(const std::vector<Standing>& standings) {
   std::vector<std::size_t> best, others;
-  for (std::size_t i = 0; i < fronts.size(); ++i) (fronts[i] == 1 ? best : others).push_back(i);
+  for (std::size_t i = 0; i < standings.size(); ++i)
+    (standings[i].front == 1 ? best : others).push_back(i);
   const auto thin_out = [](std::vector<std::size_t>& rows, std::size_t most) {
     const std::size_t all = rows.size();
     if (all <= most) return;
@@ -256,7 +271,7 @@ Json counts_json(const Results& results) {
 
 }  // namespace
 
-std::string page_block(const Results& results, const std::string& folder, const Json& steps) {
+std::string page_block(const Results& results, const std::string& folder, const Json& more) {
   const Manifest& manifest = results.manifest;
   const std::vector<Objective> objectives = objectives_of(results);
   Columns asked = asked_of(results);
@@ -278,12 +293,18 @@ std::string page_block(const Results& results, const std::string& folder, const 
   for (const Column& column : columns) json["metrics"].push_back(result::shown_json(column.text));
   if (!objectives.empty())
     json["influence"] = sensitivity_json(results, objectives.front().figure());
-  if (!steps.is_null()) json["steps"] = steps;
-  const std::vector<std::size_t> fronts = fronts_of(results, objectives);
+  json.update(more);
+  const std::vector<Standing> standings = standings_of(results, objectives);
+  const std::vector<std::size_t> rows = page_rows(standings);
   std::string points;
-  for (const std::size_t i : page_rows(fronts)) {
+  for (const std::size_t i : rows) {
     Json point = point_json(results, results.rows[i], columns, objectives);
-    point["front"] = fronts[i];
+    point["front"] = standings[i].front;
+    if (standings[i].better) {
+      const auto better = std::lower_bound(rows.begin(), rows.end(), *standings[i].better);
+      if (better != rows.end() && *better == *standings[i].better)
+        point["better"] = better - rows.begin();
+    }
     points += (points.empty() ? "" : ",") + json_text(point);
   }
   std::string text = json_text(json);
@@ -297,9 +318,9 @@ std::vector<vp::Expression> page_figures() {
   return figures;
 }
 
-bool write_page(const Results& results, const std::string& folder, const Json& steps) {
+bool write_page(const Results& results, const std::string& folder, const Json& more) {
   return page::write_page((std::filesystem::path(folder) / page::report_name).string(),
-                          {{"sweep", page_block(results, folder, steps)}});
+                          {{"sweep", page_block(results, folder, more)}});
 }
 
 std::vector<std::string> missing_figures(const Manifest& manifest,

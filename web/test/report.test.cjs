@@ -106,7 +106,7 @@ async function eventually(check) {
   }
 }
 
-const charts = { run: 5, short: 4, sweep: 4, validation: 3, comparison: 3, detectors: 4, faults: 3 };
+const charts = { run: 5, short: 4, sweep: 6, validation: 3, comparison: 3, detectors: 4, faults: 3 };
 const inLightOnly = { psOnly: 4, gaveUp: 5, nothing: 2, systems: 3, nothingCompared: 2, waves: 0, traced: 4 };
 for (const [name, least] of Object.entries({ ...charts, ...inLightOnly })) {
   for (const colorScheme of inLightOnly[name] ? ["light"] : ["light", "dark"]) {
@@ -589,6 +589,38 @@ test("points that failed are counted, crossed in the map and say why", () => ope
   assert.match(await page.locator("#verdict").textContent(), /56 failed/);
   assert.match(await page.locator("#trade-off .note").textContent(), /56 points that failed are left out here/);
   assert.match(await page.locator("#maps .note").textContent(), /Crossed cells failed/);
+}));
+
+test("a point behind the front says by how much, and opens the one that is better", () => open("smallSweep", async (page) => {
+  const list = blocks.smallSweep.sweep.points;
+  const point = list.find((p) => p.front === 2);
+  const better = list[point.better];
+  const press = (key) => page.locator("#points").getByRole("button", { name: key.slice(0, 8), exact: true }).first().click();
+  await press(list.find((p) => p.front === 1).key);
+  assert.doesNotMatch(await page.locator("#point").textContent(), /Behind the front/);
+  await press(point.key);
+  const gain = (i) => Math.abs(better.metrics[i] - point.metrics[i]);
+  const said = await page.locator("#point p.note").first().textContent();
+  const [, key, rate, watts] = said.match(/^Behind the front: (\w{8}) has ([\d.]+) frames\/s \([\d.]+ %\) more frame rate and ([\d.]+) W \([\d.]+ %\) less power\.$/) ?? [];
+  assert.equal(key, better.key.slice(0, 8), said);
+  assert.ok(Math.abs(rate / gain(0) - 1) < 0.01 && Math.abs(watts / gain(2) - 1) < 0.01, said);
+  await page.locator("#point p.note button").click();
+  assert.equal(await page.locator("#point h2 code").textContent(), better.key.slice(0, 12));
+}));
+
+test("what rules points out is counted by kind, and alone", () => open("sweep", async (page) => {
+  const list = blocks.sweep.sweep.points;
+  await show(page, page.locator("#why-not .chart-area"));
+  const said = await page.locator("#why-not .chart-area").getAttribute("aria-label");
+  const timing = list.filter((p) => p.reasons.some((reason) => reason.startsWith("misses timing")));
+  const alone = timing.filter((p) => p.reasons.length === 1 && p.metrics[0] !== null);  // without figures it is outside a limit, too
+  assert.ok(alone.length < timing.length);
+  assert.match(said, new RegExp(`misses timing: pl.blob_detection: ${timing.length}, ${alone.length} of them by this alone`));
+  assert.match(said, /failed: \d+/);
+}));
+
+test("how a search went is drawn, and said", () => open("sweep", async (page) => {
+  assert.match(await page.locator("#search .chart-area").getAttribute("aria-label"), /Of 5000 points the first 5000 brought 99 % of the final hypervolume, 0.6/);
 }));
 
 test("a page that has not all points of a sweep says so", () => open("partOfSweep", async (page) => {

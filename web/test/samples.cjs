@@ -205,11 +205,13 @@ function sweep({ points = 5000, seed = 2, rate = 0 } = {}) {
   const ranked = list.filter((p) => p.metrics[0] !== null && p.reasons.length === 0);
   const beats = (q, p) => q.metrics[0] >= p.metrics[0] && q.metrics[2] <= p.metrics[2] && (q.metrics[0] > p.metrics[0] || q.metrics[2] < p.metrics[2]);
   for (const p of list) p.front = ranked.includes(p) ? 1 + Number(ranked.some((q) => beats(q, p))) : 0;
+  for (const p of list) if (p.front > 1) p.better = list.findIndex((q) => q.front === 1 && beats(q, p));
+  const progress = { points: [1, points / 2, points], hypervolume: [0, 0.4, 0.6] };
   const objectives = [{ metric: "summary.fps.mean", unit: "1/s", better: 1 }, { metric: "power.total_w.nominal", unit: "W", better: -1 }];
   const paths = ["summary.fps.mean", "summary.latency_us.mean", "power.total_w.nominal", "summary.energy_per_frame_mj", "power.junction_c", "summary.detected", "summary.frames", "resources.total.lut", "resources.total.ff", "resources.total.bram36", "resources.total.dsp", "frames.error.corner_px.mean", "frames.error.translation_mm.mean", "frames.error.rotation_deg.mean"];
   const influence = { metric: "summary.fps.mean", basis: "all else equal: points, compared where they differ in one parameter alone", note: "", rows: [
     { path: "profile", count: 90, size: 55, low: 60, low_at: "thesis", high: 125, high_at: "a9-O2" }, { path: "pl.blob_detection.label_count", count: 45, size: 0, low: 97.5, low_at: "32", high: 97.5, high_at: "32" }] };
-  return { sweep: { objectives, constraints: ["summary.detected >= 40", ...(rate ? [`summary.fps.mean >= ${rate}`] : [])], name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, idle: "", influence, missing: 3, points: list,
+  return { sweep: { objectives, constraints: ["summary.detected >= 40", ...(rate ? [`summary.fps.mean >= ${rate}`] : [])], name: "clocks", title: "Clocks and labels", text: "Which clocks does sixty frames a second need?", folder: "out/a sweep", swept, idle: "", influence, progress, missing: 3, points: list,
     counts: { points: list.length, feasible: list.filter((p) => p.reasons.length === 0).length, failed: list.filter((p) => p.failed).length },
     metrics: paths.map(metric) } };
 }

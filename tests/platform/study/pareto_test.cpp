@@ -122,6 +122,35 @@ BOOST_AUTO_TEST_CASE(equal_in_one_objective_and_better_in_another_dominates) {
              boost::test_tools::per_element());
 }
 
+// Of a fifth of the range in each and of everything in one, it is the former that beats it in all.
+BOOST_AUTO_TEST_CASE(what_beats_a_point_is_named_with_by_how_much) {
+  Results results = example();
+  const double fps[] = {50, 100, 150, 90};
+  const double watts[] = {2, 1, 3, 2};
+  for (int i = 0; i < 4; ++i)
+    results.rows[i].metrics = feasible({{"fps", fps[i]}, {"watts", watts[i]}});
+  Pareto pareto = rank(results, fps_and_watts());
+  BOOST_TEST(!pareto.points[0].better);  // not asked for yet
+  find_better(pareto, fps_and_watts());
+  BOOST_TEST(pareto.points[0].better.value() == 1u);  // the one with 150 takes more
+  BOOST_TEST(!pareto.points[1].better);
+  BOOST_TEST(!pareto.points[2].better);
+  BOOST_TEST(pareto.points[3].better.value() == 1u);
+  const std::string csv = csv_of(results, fps_and_watts(), pareto);
+  BOOST_TEST(contains(csv, ",max fps,min watts,better,better by fps,better by watts\n"), csv);
+  BOOST_TEST(contains(csv, ",50,2,1,50,1\n"), csv);
+  BOOST_TEST(contains(csv, ",90,2,1,10,1\n"), csv);
+  BOOST_TEST(contains(csv, ",100,1,,,\n"), csv);
+
+  const std::vector<Objective> both_up{Objective("max fps", "x"), Objective("max watts", "x")};
+  for (int i = 0; i < 4; ++i)
+    results.rows[i].metrics =
+        feasible({{"fps", i < 3 ? 20.0 + 40 * i : 20}, {"watts", i < 3 ? 100 - 40.0 * i : 10}});
+  pareto = rank(results, both_up);
+  find_better(pareto, both_up);
+  BOOST_TEST(pareto.points[3].better.value() == 1u);  // (60, 60), not (20, 100) or (100, 20)
+}
+
 // A third and two thirds on the way are equally far from the best of everything.
 BOOST_AUTO_TEST_CASE(of_equally_good_knees_the_first_is_taken) {
   Results results = example();
@@ -289,7 +318,7 @@ BOOST_AUTO_TEST_CASE(a_point_without_a_metric_is_left_out_and_counted) {
   BOOST_TEST(pareto.points[2].front == 1u);
   BOOST_TEST(pareto.points[3].front == 2u);
   BOOST_TEST((pareto.lacking == std::map<std::string, std::uint64_t>{{"error", 1}}));
-  BOOST_TEST(contains(csv_of(results, objectives, pareto), "1,0,0,yes,,100 MHz,,\n"),
+  BOOST_TEST(contains(csv_of(results, objectives, pareto), "1,0,0,yes,,100 MHz,,,,,\n"),
              csv_of(results, objectives, pareto));
   BOOST_TEST(!contains(pareto_table(results, objectives, pareto), "100 MHz"));
   // Without the objective it is ranked; a constraint on what it lacks is not met.

@@ -163,6 +163,8 @@ BOOST_AUTO_TEST_CASE(a_page_of_very_many_points_has_the_front_and_some_of_the_ot
     before = place;
     on_front += point["front"] == 1 ? 1 : 0;
   }
+  BOOST_TEST(page_block(results, "x", {{"progress", 1}}).find("\"progress\":1") !=
+             std::string::npos);
   BOOST_TEST(on_front == best.size());
   BOOST_TEST(Json::parse(page_block(example(), "x"))["counts"] ==
              Json::parse(R"({"points":5,"feasible":2,"failed":1})"));

@@ -71,6 +71,7 @@ export function makeSweep(data) {
   return {
     ...sweep, parameters, metrics, fps, power, objectives, limits,
     points: bestFirst(sweep.points, objectives[0]),
+    byPlace: sweep.points,
     whole,
     feasible: sweep.points.filter((p) => p.reasons.length === 0),
     label: (axis) => axis.name + (axis.unit ? `, ${axis.unit}` : ""),

@@ -4,9 +4,19 @@ import { counted, fixed, significant, shellWord } from "../kit/format.js";
 import { dataTable } from "../kit/table.js";
 import { columnsOf, heatMap, parallel, tornado } from "./charts.js";
 import { makeSweep } from "./facts.js";
+import { progress, whyNot } from "./outcome.js";
 import { makeSelection } from "./selection.js";
 import { tradeOff } from "./trade_off.js";
 import { comparison, whatIf } from "./what_if.js";
+
+/** By how much the front is better than a point behind it. */
+function behind(sweep, point, open) {
+  if (point.better === undefined) return null;
+  const better = sweep.byPlace[point.better];
+  const gains = sweep.objectives.map((o) => ({ o, gain: Math.abs(o.of(better) - o.of(point)) })).filter(({ gain }) => gain > 0)
+    .map(({ o, gain }) => `${significant(gain, 3)} ${o.unit}${gain / Math.abs(o.of(point)) >= 0.001 ? ` (${significant(100 * gain / Math.abs(o.of(point)), 2)} %)` : ""} ${o.better > 0 ? "more" : "less"} ${o.name.toLowerCase()}`);
+  return h("p", { class: "note" }, "Behind the front: ", h("button", { type: "button", class: "plain", onclick: () => open(better) }, better.key.slice(0, 8)), ` has ${gains.join(" and ")}.`);
+}
 
 function pointPanel(sweep, selection, compare) {
   const panel = h("section", { id: "point", class: "panel", "aria-label": "Point", tabindex: "-1", hidden: true });
@@ -20,6 +30,7 @@ function pointPanel(sweep, selection, compare) {
       h("div", { class: "section-head" }, h("h2", {}, "Point ", h("code", {}, point.key.slice(0, 12))),
         h("div", { class: "tools" }, h("button", { type: "button", onclick: () => compare.keep(point) }, "Keep to compare"), h("button", { type: "button", onclick: () => { panel.hidden = true; } }, "Close"))),
       reasons.length > 0 && h("ul", { class: "chips" }, reasons.map((reason) => h("li", { class: "bad" }, reason))),
+      behind(sweep, point, panel.show),
       h("div", { class: "columns" },
         h("dl", { class: "facts wide" }, sweep.parameters.map((p) => fact(p.name, p.text(point)))),
         h("dl", { class: "facts wide" }, sweep.metrics.filter((m) => Number.isFinite(m.of(point))).map((m) => fact(m.name, `${significant(m.of(point), 5)} ${m.unit}`)))),
@@ -94,6 +105,7 @@ export function sweepPage(data) {
     subtitle: [counted(sweep.counts.points, "point"), sweep.parameters.map((p) => p.name).join(", ")].filter(Boolean).join("  ·  "),
     sections: [verdict(sweep), sweep.text && h("section", { "aria-label": "About" }, h("p", { class: "note" }, sweep.text)),
       section("trade-off", "Trade-off", tradeOff(sweep, selection, open)), panel,
+      section("search", "Search", progress(sweep)), section("why-not", "Why not?", whyNot(sweep, selection)),
       section("what-if", "What if?", whatIf(sweep, selection, open, compare)), compare,
       section("space", "Design space", parallel(sweep, selection)), section("maps", "Map", heatMap(sweep, selection, open)), section("influence", "Influence", tornado(sweep)),
       section("steps", "What a step is worth", sweep.steps && stepTable(sweep.steps)),

@@ -1,5 +1,7 @@
 #include <study/explore/explore.h>
+#include <study/explore/progress.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -93,6 +95,26 @@ BOOST_AUTO_TEST_CASE(a_million_points_need_a_few_hundred) {
   // The best points have b = 500 and any a: half of the box and more is below the curve.
   BOOST_TEST(study.explorer.front().size() > 20u);
   BOOST_TEST(study.explorer.front().hypervolume() > 0.65);
+}
+
+BOOST_AUTO_TEST_CASE(its_progress_never_falls_and_ends_at_its_hypervolume) {
+  Study study(square);
+  study.explorer.explore();
+  study::Results results = study.explorer.results();
+  BOOST_TEST(progress_json(results).is_null());  // points of no search
+  results.manifest = study.space.manifest();
+  const study::Json progress = progress_json(results);
+  const auto points = progress["points"].get<std::vector<std::size_t>>();
+  const auto hypervolume = progress["hypervolume"].get<std::vector<double>>();
+  BOOST_REQUIRE(points.size() == hypervolume.size());
+  BOOST_TEST((points.size() > 50 && points.size() <= 200));
+  BOOST_TEST(points.back() == results.rows.size());
+  BOOST_TEST(std::is_sorted(points.begin(), points.end()));
+  BOOST_TEST(std::is_sorted(hypervolume.begin(), hypervolume.end()));
+  BOOST_TEST(hypervolume.front() < 0.9 * hypervolume.back());
+  BOOST_TEST(hypervolume.back() == study.explorer.front().hypervolume());
+  for (study::ResultRow& row : results.rows) row.failed = true;
+  BOOST_TEST(progress_json(results).is_null());
 }
 
 BOOST_AUTO_TEST_CASE(a_search_that_was_interrupted_goes_on_as_if_it_was_not) {
