@@ -60,7 +60,7 @@ void add_rtl_prove(CLI::App& rtl, RtlOptions& target) {
   prove->add_option("IP", target.ip, "the IP that it replaces: axi_threshold_bridge")
       ->type_name("")
       ->required();
-  prove->add_option("--rtl", options.rtl, "your own .v and .sv files")->type_name("DIR");
+  prove->add_option("--rtl", options.rtl, "your own Verilog")->type_name("DIR");
   prove->add_option("--top", options.top, "the module in them (default: that of the IP's name)")
       ->type_name("MODULE");
   add_reading_options(*prove, options);
@@ -129,7 +129,7 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   RtlSynthOptions& options = target.synth;
   synth->add_option("IP", options.ips, "these IP of the pixel pipeline (default: all)")
       ->type_name("");
-  synth->add_option("--rtl", options.rtl, "your own .v and .sv files")->type_name("DIR");
+  synth->add_option("--rtl", options.rtl, "your own RTL")->type_name("DIR");
   synth->add_option("--top", options.top, "the module in them")->type_name("MODULE");
   add_reading_options(*synth, options);
   synth->add_flag("--no-dsp", options.no_dsp, "build multiplications from LUT");

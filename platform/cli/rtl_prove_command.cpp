@@ -7,6 +7,7 @@
 
 #include <cli/commands.h>
 #include <fpga/proof/equivalence.h>
+#include <fpga/synthesis/vhdl.h>
 #include <host/document.h>
 #include <host/output_folder.h>
 #include <result/console.h>
@@ -38,6 +39,12 @@ proof::Claim claim_of(const std::string& ip, const RtlProveOptions& options) {
                          "' is built: 'rtl prove' reads sources; give their folder");
   }
   claim.theirs = {ip, options.top.value_or(ip), synthesis::sources_in(*options.rtl), {}};
+  if (synthesis::is_of_vhdl(*claim.theirs)) {
+    throw vp::InputError(
+        "'" + claim.theirs->top +
+        "' is VHDL, which is proved as the Verilog that GHDL makes of it: build it "
+        "with markervp_add_rtl(), and give <name>.rtl of the build folder");
+  }
   claim.theirs->includes.assign(options.includes.begin(), options.includes.end());
   claim.theirs->defines = options.defines;
   return claim;

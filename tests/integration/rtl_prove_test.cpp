@@ -59,12 +59,18 @@ bool says(const std::string& text, const std::string& part) {
 
 BOOST_FIXTURE_TEST_SUITE(rtl_prove, Prove)
 
+BOOST_AUTO_TEST_CASE(vhdl_is_proved_as_verilog) {
+  std::filesystem::create_directories(*this / "rtl");
+  kit::write_file(*this / "rtl/own.vhd", "entity frame_status is end;\n");
+  check_refused({"frame_status", "--rtl", "rtl"}, "'frame_status' is VHDL, which is proved as");
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_proved_is_refused) {
   kit::write_file(*this / "own.v", "module own(input a);\nendmodule\n");
   std::filesystem::create_directories(*this / "empty");
   check_refused({"frame", "--rtl", "."}, "of an IP 'frame': name ");
   check_refused({"frame_status", "--rtl", "own.so"}, "reads sources; give their folder");
-  check_refused({"frame_status", "--rtl", "empty"}, "no .v or .sv file");
+  check_refused({"frame_status", "--rtl", "empty"}, "no file of Verilog (.v, .sv) or VHDL");
   check_refused({"frame_status", "--top", "own"}, "--top is a module of --rtl");
   check_refused({"frame_status"}, "no stream whose rules");
   check_refused({"frame_status", "--rtl", ".", "--parameter", "WIDTH"}, "give NAME=NUMBER");

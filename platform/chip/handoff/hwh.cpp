@@ -5,7 +5,6 @@
 #include <vp/unit.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <string_view>
 
@@ -14,13 +13,6 @@ namespace platform::handoff {
 namespace {
 
 constexpr unsigned widest_port = 1u << 16;
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 /// Elements of one kind in a list: MODULES of MODULE.
 pugi::xml_object_range<pugi::xml_named_node_iterator> items(const pugi::xml_node& parent,
@@ -32,7 +24,7 @@ pugi::xml_object_range<pugi::xml_named_node_iterator> items(const pugi::xml_node
 std::string kind_by_pins(const BusInterface& bus) {
   const auto has = [&](const std::string& end) {
     return std::any_of(bus.pins.begin(), bus.pins.end(), [&](const auto& pin) {
-      const std::string name = "_" + lower(pin.second);
+      const std::string name = "_" + vp::lower(pin.second);
       return name.size() > end.size() &&
              name.compare(name.size() - end.size(), end.size(), end) == 0;
     });
@@ -102,13 +94,13 @@ class HwhReader {
   void read_system(const pugi::xml_node& info) {
     handoff_.name = required(info, "NAME");
     handoff_.board = vp::visible(attribute(info, "BOARD"));
-    const std::string family = required(info, "ARCH"), device = lower(required(info, "DEVICE"));
+    const std::string family = required(info, "ARCH"), device = vp::lower(required(info, "DEVICE"));
     const std::string grade(attribute(info, "SPEEDGRADE"));
-    if (lower(family) != "zynq") {
+    if (vp::lower(family) != "zynq") {
       xml_.fail(info, "the design is for a " + family + " (" + device +
                           "): markervp models the Zynq-7000 alone");
     }
-    handoff_.part = "xc" + device + lower(attribute(info, "PACKAGE")) + grade;
+    handoff_.part = "xc" + device + vp::lower(attribute(info, "PACKAGE")) + grade;
     handoff_.device = "xc" + device + grade;
   }
 
@@ -240,9 +232,9 @@ const Item* named(const std::vector<Item>& items, const std::string& name) {
 std::string parameter(const Parameters& parameters, const std::string& name) {
   const auto exact = parameters.find(name);
   if (exact != parameters.end()) return exact->second;
-  const std::string wanted = lower(name);
+  const std::string wanted = vp::lower(name);
   for (const auto& [key, value] : parameters) {
-    if (lower(key) == wanted) return value;
+    if (vp::lower(key) == wanted) return value;
   }
   return {};
 }

@@ -59,9 +59,7 @@ const std::vector<PsNode>& ps_nodes() {
 }
 
 Node ps_node(const PsNode& device) {
-  Node node{device.name + ("@" + vp::hex(device.base).substr(2)), device.label};
-  std::transform(node.name.begin(), node.name.end(), node.name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  Node node{vp::lower(device.name + ("@" + vp::hex(device.base).substr(2))), device.label};
   std::vector<std::pair<std::string, std::uint32_t>> clocks;
   for (const std::uint32_t clock : device.clocks) clocks.emplace_back("clkc", clock);
   std::vector<std::uint32_t> cells;
@@ -180,16 +178,12 @@ void add_interrupts(PlDevice& device, Zynq& zynq, const HardwareMap& map,
     if (line && line->get_parent_object() == &module)
       device.interrupts.push_back({line->basename(), device_tree::shared_interrupt(interrupt.id)});
   }
-  const auto lower = [](std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  };
   if (device.interrupts.empty()) {
     for (const xparameters::FabricInterrupt& line : fabric_interrupts(zynq, module)) {
       constexpr std::uint32_t level_high = 2;  // of xlnx,xps-intc-1.00.a
-      if (!device.interrupts.empty() && lower(line.controller) != device.controller) continue;
-      device.controller = lower(line.controller);
-      device.interrupts.push_back({lower(line.line), {line.number, level_high}});
+      if (!device.interrupts.empty() && vp::lower(line.controller) != device.controller) continue;
+      device.controller = vp::lower(line.controller);
+      device.interrupts.push_back({vp::lower(line.line), {line.number, level_high}});
     }
   }
   std::sort(device.interrupts.begin(), device.interrupts.end(),

@@ -1,7 +1,6 @@
 #include <fpga/device/device.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <host/document.h>
@@ -116,9 +115,7 @@ const std::vector<Device>& devices() {
 }
 
 const Device& find_device(const std::string& name) {
-  std::string wanted = name;
-  std::transform(wanted.begin(), wanted.end(), wanted.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string wanted = vp::lower(name);
   std::vector<std::string> names;
   for (const Device& device : devices()) {  // the slowest grade of a part comes first
     if (wanted == device.name() || wanted == device.part) return device;

@@ -6,8 +6,10 @@
 #include <set>
 #include <system_error>
 
+#include <fpga/synthesis/vhdl.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/text.h>
 
 namespace platform::synthesis {
 
@@ -46,13 +48,24 @@ std::string parameters_text(const Parameters& parameters) {
 
 namespace {
 
-/// Of a source, comments left out.
+/// Of a source, comments left out; VHDL in small letters.
 std::string code_of(const fs::path& source) {
-  static const std::regex comment(R"(//[^\n]*|/\*[^]*?\*/)");
-  return std::regex_replace(vp::read_text(source, "source"), comment, " ");
+  static const std::regex of_verilog(R"(//[^\n]*|/\*[^]*?\*/)"), of_vhdl("--[^\n]*");
+  const std::string text = vp::read_text(source, "source");
+  if (is_vhdl(source)) return vp::lower(std::regex_replace(text, of_vhdl, " "));
+  return std::regex_replace(text, of_verilog, " ");
+}
+
+std::vector<std::string> units_of(const fs::path& source, const std::string& code) {
+  return declared_in(
+      code, is_vhdl(source) ? R"(entity|package(?:\s+body)?)" : "module|package|interface");
 }
 
 }  // namespace
+
+std::vector<std::string> units_in(const fs::path& source) {
+  return units_of(source, code_of(source));
+}
 
 bool has_parameter(const Design& design, const std::string& name) {
   const std::regex module("\\bmodule\\s+" + design.top + "\\b"),
@@ -81,10 +94,10 @@ std::vector<fs::path> needed_by(const std::string& top, const std::vector<fs::pa
   std::vector<std::string> texts;
   for (const fs::path& source : sources) {
     texts.push_back(code_of(source));
-    for (const std::string& name : declared_in(texts.back(), "module|package|interface"))
+    for (const std::string& name : units_of(source, texts.back()))
       declares.emplace(name, texts.size() - 1);
   }
-  std::vector<std::string> open{top};
+  std::vector<std::string> open{top, vp::lower(top)};
   std::set<std::size_t> needed;
   while (!open.empty()) {
     const auto [first, last] = declares.equal_range(open.back());
@@ -108,13 +121,13 @@ std::vector<fs::path> sources_in(const fs::path& folder) {
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const fs::path& path = entry->path();
-    if (path.extension() == ".v" || path.extension() == ".sv") found.push_back(path);
+    if (path.extension() == ".v" || path.extension() == ".sv" || is_vhdl(path))
+      found.push_back(path);
   }
   if (error) throw vp::InputError("'" + folder.string() + "': " + error.message());
   if (found.empty()) {
     throw vp::InputError("'" + folder.string() +
-                         "' has no .v or .sv file; VHDL becomes one with "
-                         "ghdl --synth --out=verilog");
+                         "' has no file of Verilog (.v, .sv) or VHDL (.vhd, .vhdl)");
   }
   std::sort(found.begin(), found.end());
   return found;

@@ -16,7 +16,7 @@ using Parameters = std::map<std::string, std::int64_t>;
 struct Design {
   std::string ip;  ///< in reports
   std::string top;
-  std::vector<std::filesystem::path> sources;  ///< .v and .sv
+  std::vector<std::filesystem::path> sources;  ///< .v, .sv, .vhd, .vhdl
   Parameters parameters;
   bool dsp = true;   ///< multiplications may become DSP48E1; else all of them are LUT
   bool own = false;  ///< comes with markervp
@@ -24,11 +24,15 @@ struct Design {
   std::vector<std::string> defines = {};             ///< NAME or NAME=VALUE
 };
 
-/// The .v and .sv files of a folder and of those below it. Throws vp::InputError if missing.
+/// The .v, .sv, .vhd and .vhdl files of a folder and of those below it. Throws vp::InputError if missing.
 std::vector<std::filesystem::path> sources_in(const std::filesystem::path& folder);
 
-/// Those of `sources` that `top` is made of: what declares it, and the modules, packages and
-/// interfaces whose names stand in what is needed. So an IP's figures do not depend on sources that
+/// What a source declares: modules, packages and interfaces, of VHDL entities and packages, in small
+/// letters.
+std::vector<std::string> units_in(const std::filesystem::path& source);
+
+/// Those of `sources` that `top` is made of: what declares it, and the units (units_in()) whose
+/// names stand in what is needed. So an IP's figures do not depend on sources that
 /// it has nothing to do with: ties in Yosys' mapping fall by numbers that everything it reads
 /// shares.
 std::vector<std::filesystem::path> needed_by(const std::string& top,

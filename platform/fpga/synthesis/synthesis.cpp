@@ -6,9 +6,11 @@
 #include <regex>
 
 #include <fpga/synthesis/timing_graph.h>
+#include <fpga/synthesis/vhdl.h>
 #include <fpga/synthesis/yosys.h>
 #include <host/digest.h>
 #include <host/document.h>
+#include <host/guard.h>
 #include <host/process.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -26,7 +28,18 @@ constexpr const char* netlist_file = "netlist.json";
 /// two ports that write (yosys#3384, open since 0.17); ABC does not.
 enum class Mapper { abc9, abc };
 
-std::string script_of(const Design& design, const std::string& reading, Mapper mapper) {
+/// Yosys does not let ports of two clocks read before they write (READ_FIRST), for what one writes
+/// while the other reads it is undefined (UG473, Conflict Avoidance). Vivado maps such memories.
+enum class BlockRamPorts { usual, read_first };
+
+/// What synth_xilinx does in its step map_memory, but for that.
+constexpr const char* read_first_memories =
+    "\nmemory_libmap -lib +/xilinx/lutrams_xc5v.txt -lib +/xilinx/brams_xc4v.txt -D HAS_SIZE_36 "
+    "-D HAS_CASCADE -D HAS_MIXWIDTH_SDP -logic-cost-rom 0.015625"
+    "\ntechmap -map +/xilinx/lutrams_xc5v_map.v\ntechmap -map +/xilinx/brams_xc6v_map.v";
+
+std::string script_of(const Design& design, const std::string& reading, Mapper mapper,
+                      BlockRamPorts ports) {
   // Deferred: only the modules that the top needs are elaborated. Yosys numbers what it makes, and
   // ties in the mapping fall by these numbers. The library is read here and not by synth_xilinx,
   // for there each pass goes through all of its 800 cells.
@@ -36,9 +49,11 @@ std::string script_of(const Design& design, const std::string& reading, Mapper m
       reading;
   script += "\n" + elaboration_of(design) + "\nproc";
   script += std::string("\n") + YosysFolder::check;
-  script += std::string("\nsynth_xilinx -family xc7 -flatten") +
-            (mapper == Mapper::abc9 ? " -abc9" : "") + " -run prepare: -top " + design.top;
-  if (!design.dsp) script += " -nodsp";
+  const std::string synthesis = std::string("\nsynth_xilinx -family xc7 -flatten -top ") +
+                                design.top + (mapper == Mapper::abc9 ? " -abc9" : "") +
+                                (design.dsp ? "" : " -nodsp") + " -run ";
+  script += synthesis + (ports == BlockRamPorts::usual ? "prepare:" : "prepare:map_memory");
+  if (ports == BlockRamPorts::read_first) script += read_first_memories + synthesis + "map_ffram:";
   return script + "\nwrite_json " + netlist_file + "\n";
 }
 
@@ -171,12 +186,24 @@ bool crashed(const host::CommandEnd& end) {
 }  // namespace
 
 Figures synthesise(const Design& design, const PathTiming& timing) {
+  if (is_of_vhdl(design)) {
+    const host::ScratchFolder folder("vhdl");
+    Figures figures = synthesise(verilog_of(design, folder.path()), timing);
+    figures.parameters = design.parameters;
+    figures.sources = hashes_of(design);
+    return figures;
+  }
   YosysFolder yosys(design);
+  BlockRamPorts ports = BlockRamPorts::usual;
   const auto run = [&](Mapper mapper) {
     return yosys.run(
-        [&](const std::string& reading) { return script_of(design, reading, mapper); });
+        [&](const std::string& reading) { return script_of(design, reading, mapper, ports); });
   };
   host::CommandEnd end = run(Mapper::abc9);
+  if (end.out.find("no valid mapping found for memory") != std::string::npos) {
+    ports = BlockRamPorts::read_first;
+    end = run(Mapper::abc9);
+  }
   const bool fell_back = crashed(end);
   if (fell_back) end = run(Mapper::abc);
   if (end.exit_code != 0) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <fpga/synthesis/simulation_text.h>
+#include <fpga/synthesis/vhdl.h>
 #include <host/document.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -84,20 +85,35 @@ std::vector<fs::path> include_folders(const Design& design) {
   return folders;
 }
 
+std::vector<fs::path> without_vhdl(std::vector<fs::path> sources) {
+  sources.erase(std::remove_if(sources.begin(), sources.end(), is_vhdl), sources.end());
+  return sources;
+}
+
 /// A folder to include from, in the scratch folder: `-I` takes no name with a space in it.
 std::string include_link(std::size_t number) {
   return "include_" + std::to_string(number);
 }
 
-/// The modules that the sources declare.
+/// The modules and entities that the sources declare.
 std::vector<std::string> modules_in(const std::vector<fs::path>& sources) {
   std::vector<std::string> names;
   for (const fs::path& source : sources) {
-    for (const std::string& name : declared_in(vp::read_text(source, "source")))
+    for (const std::string& name :
+         declared_in(vp::read_text(source, "source"),
+                     is_vhdl(source) ? "[Ee][Nn][Tt][Ii][Tt][Yy]" : "module"))
       names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+[[noreturn]] void refuse_name(const Design& design) {
+  const std::vector<std::string> modules = modules_in(design.sources);
+  const bool has_vhdl = std::any_of(design.sources.begin(), design.sources.end(), is_vhdl);
+  throw vp::InputError("no module " + std::string(has_vhdl ? "or entity " : "") + "'" + design.top +
+                       "' in the sources" +
+                       (modules.empty() ? "" : ": name " + vp::one_of(modules)));
 }
 
 /// With a word about an error.
@@ -161,9 +177,10 @@ host::CommandEnd run_in(const fs::path& folder, const std::vector<std::string>& 
 YosysFolder::YosysFolder(const Design& design)
     : design_(design),
       includes_(include_folders(design)),
-      originals_(design.sources),
-      sources_(design.sources) {
+      originals_(without_vhdl(design.sources)),
+      sources_(originals_) {
   check_name(design.top, "module");
+  if (sources_.empty()) refuse_name(design);
   for (const auto& [name, value] : design.parameters) check_name(name, "parameter");
   for (const std::string& definition : design.defines) check_definition(definition);
   for (std::size_t i = 0; i < includes_.size(); ++i)
@@ -299,11 +316,8 @@ void YosysFolder::refuse(const host::CommandEnd& end) const {
     synthesis::refuse(design_, place_of(file[1], file[1], file[3]) + "no module '" + file[1].str() +
                                    "' in the sources: add the file that declares it");
   }
-  if (what.find("Module `" + design_.top + "' not found") != std::string::npos) {
-    const std::vector<std::string> modules = modules_in(design_.sources);
-    throw vp::InputError("no module '" + design_.top + "' in the sources" +
-                         (modules.empty() ? "" : ": name " + vp::one_of(modules)));
-  }
+  if (what.find("Module `" + design_.top + "' not found") != std::string::npos)
+    refuse_name(design_);
   synthesis::refuse(design_, where + what);
 }
 

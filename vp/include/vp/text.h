@@ -24,6 +24,8 @@ std::string one_of(const std::vector<std::string>& names);
 std::vector<std::string> split(std::string_view text, char separator);
 /// Without white space at both ends.
 std::string_view trim(std::string_view text);
+/// Letters of ASCII as small ones, whatever the locale.
+std::string lower(std::string_view text);
 /// With `decimals` places after the point ("12.30"), whatever the locale. Never "-0.00".
 std::string format_fixed(double value, int decimals);
 /// "0x41200000": at least eight digits, for messages.

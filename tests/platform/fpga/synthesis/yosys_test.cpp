@@ -373,7 +373,9 @@ BOOST_AUTO_TEST_CASE(an_ip_is_read_without_the_others) {
 }
 
 // The whole set takes minutes: platform_synthesis_figures, of ctest -C nightly.
+// Of the small ones; the nightly run makes all of them anew.
 BOOST_AUTO_TEST_CASE(the_smallest_of_each_ip_is_what_is_committed) {
+  constexpr unsigned most_luts = 200;
   using Json = nlohmann::ordered_json;
   const Json committed =
       Json::parse(kit::read_file(MARKERVP_DATA "/rtl/synthesis.json")).at("entries");
@@ -385,12 +387,13 @@ BOOST_AUTO_TEST_CASE(the_smallest_of_each_ip_is_what_is_committed) {
   std::size_t compared = 0;
   for (const Design& design : own_designs({})) {
     const Json& expected = smallest.at(design.ip);
-    if (expected.at("parameters") != Json(design.parameters)) continue;
+    if (expected.at("lut") > most_luts || expected.at("parameters") != Json(design.parameters))
+      continue;
     const Json made = Json::parse(to_json({synthesise(design, timing)}, "any", timing));
     BOOST_TEST(made.at("entries").at(0) == expected, design.ip);
     ++compared;
   }
-  BOOST_TEST(compared == smallest.size());
+  BOOST_TEST(compared == 12u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

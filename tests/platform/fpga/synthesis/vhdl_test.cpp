@@ -1,0 +1,192 @@
+// VHDL through GHDL and Yosys: what a folder of it becomes, and what is refused with file and line.
+#include <fpga/synthesis/synthesis.h>
+#include <fpga/synthesis/vhdl.h>
+
+#include <boost/test/unit_test.hpp>
+#include <string>
+#include <vector>
+
+#include <vp/error.h>
+
+#include "temporary_files.h"
+
+using namespace platform::synthesis;
+
+namespace {
+
+const PathTiming timing = PathTiming::load(std::string(MARKERVP_DATA) + "/rtl/xc7.json");
+
+const std::string logic =
+    "library ieee;\nuse ieee.std_logic_1164.all;\nuse ieee.numeric_std.all;\n";
+
+/// A counter, in VHDL in which capitals do not matter.
+const std::string counter = logic + R"(
+Entity Counter is
+  generic (Bits_g : positive := 8);
+  port (Clk : in std_logic; Count : out std_logic_vector(Bits_g - 1 downto 0));
+end entity;
+architecture rtl of Counter is
+  signal reg : unsigned(Count'range) := (others => '0');  -- a keyword of Verilog
+begin
+  Count <= std_logic_vector(reg);
+  process (Clk) begin
+    if rising_edge(Clk) then reg <= reg + 1; end if;
+  end process;
+end architecture;
+)";
+
+struct Folder {
+  void write(const std::string& name, const std::string& text) {
+    kit::write_file(folder / name, text);
+  }
+  Design design(const std::string& top, const Parameters& parameters = {}) {
+    return {top, top, sources_in(folder.path()), parameters};
+  }
+  Figures figures(const std::string& top, const Parameters& parameters = {}) {
+    return synthesise(design(top, parameters), timing);
+  }
+  std::string refusal(const std::string& top, const Parameters& parameters = {}) {
+    try {
+      figures(top, parameters);
+    } catch (const vp::InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  kit::TemporaryFolder folder;
+};
+
+void check_says(const std::string& refusal, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    BOOST_TEST(refusal.find(part) != std::string::npos, refusal << " without " << part);
+}
+
+}  // namespace
+
+BOOST_FIXTURE_TEST_SUITE(vhdl, Folder)
+
+BOOST_AUTO_TEST_CASE(a_counter_has_the_figures_of_its_generics) {
+  write("counter.vhd", counter);
+  BOOST_TEST(figures("Counter").netlist.cells.ff == 8u);
+  const Figures wide = figures("counter", {{"Bits_g", 32}});
+  BOOST_TEST(wide.netlist.cells.ff == 32u);
+  BOOST_TEST(wide.netlist.cells.carry4 == 8u);
+  BOOST_TEST(wide.parameters.at("Bits_g") == 32);
+  // Figures belong to the VHDL, not to what GHDL makes of it.
+  BOOST_REQUIRE(wide.sources.size() == 1u);
+  BOOST_TEST(wide.sources.begin()->first == "counter.vhd");
+}
+
+// The top comes first by its name, its package last, and both are in a library.
+BOOST_AUTO_TEST_CASE(sources_come_in_any_order_and_in_their_library) {
+  write("a_top.vhd", logic + R"(
+library mine;
+use mine.sizes.all;
+entity top is
+  port (clk : in std_logic; q : out std_logic_vector(width - 1 downto 0));
+end;
+architecture rtl of top is
+begin
+  c : entity work.counter generic map (bits_g => width) port map (clk => clk, count => q);
+end;
+)");
+  write("counter.vhdl", counter);
+  write("sizes.vhd", "package sizes is constant width : positive := 12; end package;\n");
+  // What the top does not need is no obstacle.
+  write("bench.vhd",
+        "entity bench is end; architecture a of bench is begin wait for 0.5ns; end;\n");
+  write("broken.sv", "module broken(input logic a;\n");
+  BOOST_TEST(figures("top").netlist.cells.ff == 12u);
+}
+
+// GHDL's Verilog lacks the branch for others; without it there would be latches, or other values.
+BOOST_AUTO_TEST_CASE(a_case_keeps_its_others) {
+  write("choice.vhd", logic + R"(
+entity choice is
+  port (a : in std_logic_vector(1 downto 0); d : in std_logic_vector(3 downto 0);
+        q : out std_logic_vector(3 downto 0));
+end;
+architecture rtl of choice is
+begin
+  process (all) begin
+    case a is
+      when "00" => q <= d;
+      when "01" => q <= not d;
+      when others => q <= "1010";
+    end case;
+  end process;
+end;
+)");
+  const Figures found = figures("choice");
+  BOOST_TEST(found.netlist.cells.ff == 0u);
+  BOOST_TEST(found.netlist.cells.lut == 4u);
+}
+
+// The common template of vendors; Yosys takes it for one that Virtex-6 cannot build.
+BOOST_AUTO_TEST_CASE(a_memory_with_two_clocks_that_reads_first_is_a_block_ram) {
+  write("ram.vhd", logic + R"(
+entity ram is
+  port (clk_a, clk_b, we_a, we_b : in std_logic; a, b : in unsigned(9 downto 0);
+        da, db : in std_logic_vector(17 downto 0); qa, qb : out std_logic_vector(17 downto 0));
+end;
+architecture rtl of ram is
+  type memory is array (0 to 1023) of std_logic_vector(17 downto 0);
+  shared variable words : memory;
+begin
+  process (clk_a) begin
+    if rising_edge(clk_a) then
+      qa <= words(to_integer(a));
+      if we_a = '1' then words(to_integer(a)) := da; end if;
+    end if;
+  end process;
+  process (clk_b) begin
+    if rising_edge(clk_b) then
+      qb <= words(to_integer(b));
+      if we_b = '1' then words(to_integer(b)) := db; end if;
+    end if;
+  end process;
+end;
+)");
+  const Figures found = figures("ram");
+  BOOST_TEST(found.netlist.cells.ramb18 == 1u);
+  BOOST_TEST(found.netlist.cells.ramb36 == 0u);
+  BOOST_TEST(found.netlist.cells.lut == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(older_vhdl_is_read_where_it_is_no_vhdl_2008) {
+  write("old.vhd", logic + R"(
+entity old is port (default, b : in std_logic; q : out std_logic); end;
+architecture rtl of old is
+begin
+  q <= default and b;
+end;
+)");
+  BOOST_TEST(figures("old").netlist.cells.lut == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_line_and_what_to_do) {
+  write("own.vhd", logic +
+                       "entity own is\n  port (clk : in std_logc);\nend;\n"
+                       "architecture rtl of own is\nbegin\nend;\n");
+  check_says(refusal("own"), {"'own': ", "own.vhd:5:", "std_logc", "mend what it says"});
+  write("own.vhd", logic +
+                       "entity own is\n  generic (size : positive);\n"
+                       "  port (q : out std_logic_vector(size downto 0));\nend;\n"
+                       "architecture rtl of own is\nbegin\n  q <= (others => '1');\nend;\n");
+  check_says(refusal("own"), {"own.vhd:5:", "\"size\" has no default value", "--parameter"});
+  BOOST_TEST(refusal("own", {{"size", 3}}) == "");
+  write("own.vhd",
+        "library unisim;\nuse unisim.vcomponents.all;\nentity own is end;\n"
+        "architecture rtl of own is\nbegin\nend;\n");
+  check_says(refusal("own"), {"own.vhd:1:", "add the sources of the library 'unisim'", "vendor's"});
+}
+
+BOOST_AUTO_TEST_CASE(a_top_that_is_not_there_or_twice_is_refused) {
+  write("counter.vhd", counter);
+  check_says(refusal("conter"), {"no module or entity 'conter'", "name Counter"});
+  write("counter.sv", "module counter(input logic clk); endmodule\n");
+  check_says(refusal("counter"), {"counter.vhd", "a module of", "counter.sv"});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
