@@ -24,11 +24,12 @@ struct Design {
   std::vector<std::string> defines = {};             ///< NAME or NAME=VALUE
 };
 
-/// The .v, .sv, .vhd and .vhdl files of a folder and of those below it. Throws vp::InputError if missing.
+/// The .v, .sv, .vhd and .vhdl files of a folder and of those below it. Throws vp::InputError if
+/// missing.
 std::vector<std::filesystem::path> sources_in(const std::filesystem::path& folder);
 
-/// What a source declares: modules, packages and interfaces, of VHDL entities and packages, in small
-/// letters.
+/// What a source declares: modules, packages and interfaces, of VHDL entities and packages, in
+/// small letters.
 std::vector<std::string> units_in(const std::filesystem::path& source);
 
 /// Those of `sources` that `top` is made of: what declares it, and the units (units_in()) whose
