@@ -5,6 +5,7 @@
 #include <future>
 #include <ostream>
 #include <thread>
+#include <utility>
 
 #include <cli/commands.h>
 #include <fpga/synthesis/synthesis.h>
@@ -67,6 +68,14 @@ void print_row(const Figures& figures, const synthesis::PathTiming& timing, std:
   }
   out << fmt::format(fmt::runtime(row), name_of(figures), c.lut, c.lut_pairs, c.lut_memory,
                      c.lut_through, c.ff, c.carry4, c.ramb18, c.ramb36, c.dsp, fmax);
+  const auto& [constant, bits] =
+      std::pair(figures.netlist.constant_bits, figures.netlist.output_bits);
+  if (2 * constant > bits) {
+    out << fmt::format(
+        "  {} of {} bits of its outputs are constant: its parameters may leave out what drives "
+        "them\n",
+        constant, bits);
+  }
   for (const std::string& what : figures.netlist.not_covered)
     out << "  not covered by Fmax: " << what << '\n';
   out << std::flush;

@@ -32,8 +32,10 @@ Kind kind_of(const std::string& type) {
   if (starts_with(type, "RAMB")) return Kind::bram;
   if (starts_with(type, "RAM")) return Kind::lutram;
   if (starts_with(type, "SRL")) return Kind::shift;
-  if (is_one_of(type, {"IBUF", "IBUFG", "OBUF", "VCC", "GND", "BUFG", "BUFGCE", "BUFGCTRL",
-                       "BUFGMUX", "BUFH", "BUFHCE", "BUFIO", "BUFMR", "BUFR"}))
+  if (is_one_of(type,
+                {"IBUF",     "IBUFG",   "IBUFDS", "IBUFGDS",  "OBUF",  "OBUFDS", "OBUFT", "OBUFTDS",
+                 "IOBUF",    "IOBUFDS", "PULLUP", "PULLDOWN", "VCC",   "GND",    "BUFG",  "BUFGCE",
+                 "BUFGCTRL", "BUFGMUX", "BUFH",   "BUFHCE",   "BUFIO", "BUFMR",  "BUFR"}))
     return Kind::outside;
   return Kind::unknown;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -339,6 +340,23 @@ std::map<std::string, std::uint64_t> parameters_of(const Json& module) {
   return parameters;
 }
 
+/// An output is constant if what its buffer gets has no net.
+void count_outputs(const Json& module, Netlist& netlist) {
+  std::set<std::int64_t> constants;
+  for (const auto& [name, cell] : module.at("cells").items()) {
+    const Json& pins = cell.at("connections");
+    if (cell.at("type") == "OBUF" && pins.at("I").at(0).is_string())
+      constants.insert(pins.at("O").at(0).get<std::int64_t>());
+  }
+  for (const auto& [name, port] : module.value("ports", Json::object()).items()) {
+    if (port.at("direction") != "output") continue;
+    for (const Json& bit : port.at("bits")) {
+      ++netlist.output_bits;
+      if (bit.is_string() || constants.count(bit.get<std::int64_t>()) != 0) ++netlist.constant_bits;
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<Fmax> Netlist::fmax(const PathTiming& timing) const {
@@ -380,6 +398,7 @@ Netlist read_netlist(const std::filesystem::path& file, const std::string& top,
     netlist.not_covered.push_back(
         "the longest path is a single net: how far a placer puts its ends apart is not known");
   }
+  count_outputs(module, netlist);
   return netlist;
 }
 

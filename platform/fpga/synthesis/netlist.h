@@ -43,6 +43,9 @@ struct Netlist {
   std::optional<Path> longest;  ///< none: there is no path from register to register
   ClockLimit limit;
   std::vector<std::string> not_covered;  ///< by Fmax, a phrase each
+  /// Bits of the top's outputs, and those of them that never change: what drives them is left out.
+  std::uint32_t output_bits = 0;
+  std::uint32_t constant_bits = 0;
 
   /// That of the longest path, and no more than the limit; none without a path.
   std::optional<Fmax> fmax(const PathTiming& timing) const;

@@ -5,6 +5,8 @@
 #include <regex>
 #include <set>
 #include <system_error>
+#include <tuple>
+#include <utility>
 
 #include <fpga/synthesis/vhdl.h>
 #include <vp/error.h>
@@ -31,9 +33,14 @@ Parameters parse_parameters(const std::vector<std::string>& given) {
     const char* const begin =
         text.data() + (equals == std::string::npos ? text.size() : equals + 1);
     const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(begin, end, value);
+    auto [stop, error] = std::from_chars(begin, end, value);
+    if (const std::string word(begin, end); word == "true" || word == "false") {
+      value = word == "true" ? 1 : 0;
+      std::tie(stop, error) = std::pair(end, std::errc{});
+    }
     if (equals == 0 || error != std::errc{} || stop != end) {
-      throw vp::InputError("--parameter '" + text + "': give NAME=NUMBER, as LABELS=64");
+      throw vp::InputError("--parameter '" + text +
+                           "': give NAME=NUMBER, as LABELS=64, or true or false");
     }
     parameters[text.substr(0, equals)] = value;
   }

@@ -45,7 +45,7 @@ bool has_parameter(const Design& design, const std::string& name);
 /// The modules that a text declares, or what else `what` says: an alternative of words.
 std::vector<std::string> declared_in(const std::string& text, const char* what = "module");
 
-/// LABELS=64, as a user gives it. Throws vp::InputError.
+/// LABELS=64, as a user gives it; true is 1, false 0. Throws vp::InputError.
 Parameters parse_parameters(const std::vector<std::string>& given);
 
 /// " LABELS=64 WIDTH=32"

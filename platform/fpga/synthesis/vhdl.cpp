@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include <fpga/synthesis/vhdl_script.h>
@@ -43,6 +44,24 @@ std::string message_of(const std::string& printed) {
   return vp::join(said, "; ");
 }
 
+/// Generics that take no number, in small letters.
+std::set<std::string> boolean_generics(const Design& design) {
+  static const std::regex declaration(R"(([\w\s,]+):\s*boolean\b)"), word(R"(\w+)");
+  std::set<std::string> names;
+  for (const fs::path& source : design.sources) {
+    if (!is_vhdl(source)) continue;
+    const std::vector<std::string> units = units_in(source);
+    if (std::find(units.begin(), units.end(), vp::lower(design.top)) == units.end()) continue;
+    const std::string text = vp::lower(vp::read_text(source, "source"));
+    for (std::sregex_iterator m(text.begin(), text.end(), declaration), end; m != end; ++m) {
+      const std::string list = (*m)[1];
+      for (std::sregex_iterator n(list.begin(), list.end(), word), none; n != none; ++n)
+        names.insert(n->str());
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 bool is_vhdl(const fs::path& source) {
@@ -72,8 +91,12 @@ Design verilog_of(const Design& design, const fs::path& folder) {
   for (const fs::path& source : needed_by(design.top, design.sources)) {
     if (is_vhdl(source)) sources.push_back(fs::absolute(source).string());
   }
-  for (const auto& [name, value] : design.parameters)
-    generics.push_back(name + "=" + std::to_string(value));
+  const std::set<std::string> booleans = boolean_generics(design);
+  for (const auto& [name, value] : design.parameters) {
+    const bool is_word = booleans.count(vp::lower(name)) != 0 && (value == 0 || value == 1);
+    generics.push_back(name + "=" +
+                       (is_word ? (value == 1 ? "true" : "false") : std::to_string(value)));
+  }
   const host::CommandEnd end = host::run_command(
       {"cmake", "-DNAME=markervp", "-DTOP=" + design.top, "-DFILE=" + verilog.string(),
        "-DGENERICS=" + list_of(generics), "-DSOURCES=" + list_of(sources), "-P", script.string()});

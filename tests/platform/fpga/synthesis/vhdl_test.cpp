@@ -78,6 +78,23 @@ BOOST_AUTO_TEST_CASE(a_counter_has_the_figures_of_its_generics) {
   BOOST_TEST(wide.sources.begin()->first == "counter.vhd");
 }
 
+BOOST_AUTO_TEST_CASE(a_boolean_generic_takes_a_word) {
+  write("own.vhd", logic + R"(
+entity own is
+  generic (Enable, Fast_g : Boolean := false; Size : natural := 1);
+  port (a, b : in std_logic; q : out std_logic);
+end;
+architecture rtl of own is
+begin
+  q <= a and b when Fast_g else '0';
+end;
+)");
+  BOOST_TEST(figures("own").netlist.constant_bits == 1u);
+  const Parameters fast = parse_parameters({"Fast_g=true", "Size=1"});
+  BOOST_TEST(fast.at("Fast_g") == 1);
+  BOOST_TEST(figures("own", fast).netlist.constant_bits == 0u);
+}
+
 // The top comes first by its name, its package last, and both are in a library.
 BOOST_AUTO_TEST_CASE(sources_come_in_any_order_and_in_their_library) {
   write("a_top.vhd", logic + R"(

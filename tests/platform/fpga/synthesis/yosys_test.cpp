@@ -326,6 +326,27 @@ BOOST_AUTO_TEST_CASE(primitives_of_the_family_may_stand_in_the_rtl) {
   BOOST_TEST(figures.netlist.cells.ff == 1u);
 }
 
+// A switch that leaves all out is seen by what the outputs have.
+BOOST_AUTO_TEST_CASE(constant_outputs_are_counted) {
+  const std::string text =
+      "module own #(parameter ON = 0) (input logic clk, a, output logic p,\n"
+      "  output logic [2:0] q);\n  assign p = a;\n"
+      "  always_ff @(posedge clk) q <= ON ? {3{a}} : 3'b101;\nendmodule\n";
+  const Netlist off = synthesise(design(text, "own"), timing).netlist;
+  BOOST_TEST(off.output_bits == 4u);
+  BOOST_TEST(off.constant_bits == 3u);
+  BOOST_TEST(synthesise(design(text, "own", {{"ON", 1}}), timing).netlist.constant_bits == 0u);
+}
+
+// How fast a pin is, the model does not know; the logic behind it is that of the RTL.
+BOOST_AUTO_TEST_CASE(a_pin_in_both_directions_is_no_obstacle) {
+  const std::string text =
+      "module own(input logic clk, en, d, inout wire pin, output logic q);\n"
+      "  assign pin = en ? d : 1'bz;\n"
+      "  always_ff @(posedge clk) q <= pin;\nendmodule\n";
+  BOOST_TEST(synthesise(design(text, "own"), timing).netlist.cells.ff == 1u);
+}
+
 BOOST_AUTO_TEST_CASE(a_parameter_that_there_is_not_is_refused) {
   check_says(refusal(counter, "own", {{"WIDTH", 3}}), {"WIDTH"});
 }
