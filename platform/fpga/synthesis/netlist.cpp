@@ -348,7 +348,8 @@ void count_outputs(const Json& module, Netlist& netlist) {
     if (cell.at("type") == "OBUF" && pins.at("I").at(0).is_string())
       constants.insert(pins.at("O").at(0).get<std::int64_t>());
   }
-  for (const auto& [name, port] : module.value("ports", Json::object()).items()) {
+  const Json ports = module.value("ports", Json::object());
+  for (const auto& [name, port] : ports.items()) {
     if (port.at("direction") != "output") continue;
     for (const Json& bit : port.at("bits")) {
       ++netlist.output_bits;
