@@ -1,20 +1,20 @@
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVhdl.cmake")
 
-# markervp_add_rtl(NAME [IP ip] TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE]
+# markervp_add_rtl(NAME [IP ip] TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE] [FIGURES]
 #   [INCLUDE_DIRS dir…] [DEFINES NAME[=VALUE]…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS o…] [GHDL_OPTIONS o…]
 #   [INTERFACES "port: kind…"…] [REGISTERS file])
 # RTL as a shared object. With IP in place of an IP, for `markervp run --set pl.fidelity.<ip>=FILE`; without IP a part of a design
 # (axi::RtlPart), whose interfaces are found among its ports, or said by INTERFACES. Verilator compiles the module `TOP`,
 # GHDL turns VHDL into Verilog for it, `TOP` then is an entity. REGISTERS describes its registers; without it, a component.xml or
 # x<top>_hw.h where the vendor's tools put it beside the sources. The object knows its ports and parameters; markervp compares them with those of the
-# IP when it loads it. Its assertions run, and end the run, but with NO_ASSERTIONS. Needs neither markervp's headers nor its compiler, so it serves every markervp of the same interface.
+# IP when it loads it. With FIGURES its synthesis is part of the build: <name>.figures.json beside the object. Its assertions run, and end the run, but with NO_ASSERTIONS. Needs neither markervp's headers nor its compiler, so it serves every markervp of the same interface.
 function(markervp_add_rtl NAME)
-  cmake_parse_arguments(RTL "NO_ASSERTIONS;COVERAGE" "IP;TOP;FILELIST;REGISTERS"
+  cmake_parse_arguments(RTL "NO_ASSERTIONS;COVERAGE;FIGURES" "IP;TOP;FILELIST;REGISTERS"
     "SOURCES;PARAMETERS;INCLUDE_DIRS;DEFINES;WAIVERS;VERILATOR_OPTIONS;GHDL_OPTIONS;INTERFACES" ${ARGN})
   if(NOT RTL_TOP OR NOT (RTL_SOURCES OR RTL_FILELIST) OR RTL_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "markervp_add_rtl(${NAME} [IP ip] TOP module SOURCES file… [PARAMETERS NAME=VALUE…] [INTERFACES \"port: kind\"…] "
       "[INCLUDE_DIRS dir…] [DEFINES NAME=VALUE…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS option…] [GHDL_OPTIONS option…] "
-      "[REGISTERS file] [NO_ASSERTIONS] [COVERAGE]): got '${ARGN}'")
+      "[REGISTERS file] [NO_ASSERTIONS] [COVERAGE] [FIGURES]): got '${ARGN}'")
   endif()
   find_package(verilator 5 HINTS "$ENV{VERILATOR_ROOT}" /usr/share/verilator)
   if(NOT verilator_FOUND)
@@ -71,6 +71,14 @@ function(markervp_add_rtl NAME)
     VERILATOR_ARGS -O3 --x-assign fast --x-initial unique ${assert} ${options} ${parameters})
   markervp_rtl_notes("${RTL_INTERFACES}" "${files}" notes)
   markervp_rtl_registers(${NAME})
+  if(RTL_FIGURES)
+    set(synthesised ${vhdl})
+    if(NOT vhdl)
+      set(synthesised ${files})
+      list(FILTER synthesised INCLUDE REGEX "\\.(v|sv)$")
+    endif()
+    markervp_rtl_figures(${NAME} "${folder}" "${synthesised}")
+  endif()
   markervp_rtl_glue(${NAME} "${folder}" "${generics}")
   # The glue has these functions (MarkervpRtl.cpp.in).
   target_compile_definitions(${NAME} PRIVATE VL_USER_FINISH VL_USER_STOP VL_USER_FATAL VL_PRINTF=markervp_rtl_print)
@@ -81,6 +89,39 @@ function(markervp_add_rtl NAME)
   if(NOT RTL_COVERAGE)
     markervp_rtl_share_runtime(${NAME})
   endif()
+endfunction()
+
+# Figures of the same sources and parameters. Of what Yosys refuses, or without it, there are none: the build says why, and runs say that they
+# are unknown.
+function(markervp_rtl_figures NAME FOLDER FILES)
+  set(words rtl synth --top ${RTL_TOP})
+  foreach(file IN LISTS FILES)
+    list(APPEND words --rtl "${file}")
+  endforeach()
+  foreach(directory IN LISTS RTL_INCLUDE_DIRS)
+    get_filename_component(directory "${directory}" ABSOLUTE)
+    list(APPEND words --include "${directory}")
+  endforeach()
+  foreach(definition IN LISTS RTL_DEFINES)
+    list(APPEND words --define "${definition}")
+  endforeach()
+  foreach(parameter IN LISTS RTL_PARAMETERS)
+    list(APPEND words --parameter "${parameter}")
+  endforeach()
+  list(JOIN words "]==] [==[" words)
+  file(GENERATE OUTPUT "${FOLDER}/figures.cmake" CONTENT "set(figures [==[$<TARGET_FILE_DIR:${NAME}>/${NAME}.figures.json]==])
+execute_process(COMMAND [==[$<TARGET_FILE:markervp::markervp>]==] [==[${words}]==] -o \"\${figures}\"
+  RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE errors)
+if(NOT result EQUAL 0)
+  file(REMOVE \"\${figures}\")
+  message(\"markervp_add_rtl(${NAME}): its figures stay unknown: \${errors}\")
+endif()
+")
+  add_custom_command(OUTPUT "${FOLDER}/figures.stamp"
+    COMMAND "${CMAKE_COMMAND}" -P "${FOLDER}/figures.cmake"
+    COMMAND "${CMAKE_COMMAND}" -E touch "${FOLDER}/figures.stamp"
+    DEPENDS "${FOLDER}/figures.cmake" ${FILES} COMMENT "Synthesising ${NAME} for its figures" VERBATIM)
+  add_custom_target(${NAME}_figures ALL DEPENDS "${FOLDER}/figures.stamp")
 endfunction()
 
 # The description of its registers lies beside the object, where axi::RtlPart looks for it.

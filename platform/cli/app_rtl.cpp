@@ -129,7 +129,9 @@ void add_rtl(CLI::App& app, RtlOptions& target) {
   RtlSynthOptions& options = target.synth;
   synth->add_option("IP", options.ips, "these IP of the pixel pipeline (default: all)")
       ->type_name("");
-  synth->add_option("--rtl", options.rtl, "your own RTL")->type_name("DIR");
+  synth->add_option("--rtl", options.rtl, "your own Verilog or VHDL, as often as needed")
+      ->type_name("DIR|FILE")
+      ->allow_extra_args(false);
   synth->add_option("--top", options.top, "the module in them")->type_name("MODULE");
   add_reading_options(*synth, options);
   synth->add_flag("--no-dsp", options.no_dsp, "build multiplications from LUT");

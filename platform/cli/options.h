@@ -103,10 +103,11 @@ struct RunOptions : PlatformOptions {
 struct RtlSynthOptions {
   std::vector<std::string> ips;  ///< none: all
   std::vector<std::string> parameters;
-  std::optional<std::string> rtl, top;  ///< a folder of the user's, and the module in it
-  std::vector<std::string> includes;    ///< folders
-  std::vector<std::string> defines;     ///< NAME or NAME=VALUE
-  bool no_dsp = false;                  ///< multiplications from LUT
+  std::vector<std::string> rtl;       ///< folders and files of the user's
+  std::optional<std::string> top;     ///< the module in them
+  std::vector<std::string> includes;  ///< folders
+  std::vector<std::string> defines;   ///< NAME or NAME=VALUE
+  bool no_dsp = false;                ///< multiplications from LUT
   std::optional<std::string> output;
 };
 

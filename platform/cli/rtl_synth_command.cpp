@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <future>
 #include <ostream>
 #include <thread>
@@ -21,10 +22,10 @@ using synthesis::Design;
 using synthesis::Figures;
 
 std::vector<Design> designs_of(const RtlSynthOptions& options) {
-  if (options.rtl.has_value() != options.top.has_value()) {
+  if (options.rtl.empty() == options.top.has_value()) {
     throw vp::InputError("--rtl and --top belong together: a folder, and the module in it");
   }
-  if (!options.rtl) {
+  if (options.rtl.empty()) {
     std::vector<Design> designs = synthesis::own_designs(options.ips);
     if (options.parameters.empty()) return designs;
     if (options.ips.size() != 1) throw vp::InputError("--parameter is for one IP: name it");
@@ -35,8 +36,17 @@ std::vector<Design> designs_of(const RtlSynthOptions& options) {
   if (!options.ips.empty()) {
     throw vp::InputError("give '" + options.ips.front() + "' or --rtl, not both");
   }
-  return {{*options.top, *options.top, synthesis::sources_in(*options.rtl),
-           synthesis::parse_parameters(options.parameters)}};
+  Design design{*options.top, *options.top, {}, synthesis::parse_parameters(options.parameters)};
+  for (const std::string& place : options.rtl) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(place, ignored)) {
+      design.sources.emplace_back(place);
+    } else {
+      const auto sources = synthesis::sources_in(place);
+      design.sources.insert(design.sources.end(), sources.begin(), sources.end());
+    }
+  }
+  return {std::move(design)};
 }
 
 std::string name_of(const Figures& figures) {

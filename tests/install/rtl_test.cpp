@@ -354,7 +354,13 @@ BOOST_AUTO_TEST_CASE(rtl_as_a_part_of_a_design) {
   const kit::Outcome registers = installed.markervp({"map", "copier", "--design", design});
   BOOST_TEST(contains(registers.out, "0x43C00010  FROM"), registers.out);
   const Json result = Json::parse(kit::read_file(installed.beside("with_part/result.json")));
-  BOOST_TEST(result["resources"]["unknown"] == Json{"pl.copier"});
+  // Its synthesis is part of the build.
+  BOOST_TEST(!result["resources"].contains("unknown"), result["resources"].dump());
+  const Json& modules = result["resources"]["modules"];
+  const auto copier = std::find_if(modules.begin(), modules.end(), [](const Json& module) {
+    return module["name"] == "pl.copier";
+  });
+  BOOST_TEST((*copier)["lut"] > 100, copier->dump());
 }
 
 BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_and_line) {

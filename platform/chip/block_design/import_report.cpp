@@ -137,7 +137,7 @@ std::string rtl_targets(const ImportedDesign& design) {
             (part.rtl.interfaces.empty()
                  ? ""
                  : "\n  INTERFACES \"" + vp::join(part.rtl.interfaces, "\" \"") + "\"") +
-            ")\nset_target_properties(" + part.target +
+            "\n  FIGURES)\nset_target_properties(" + part.target +
             " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\n\n";
   }
   return text;

@@ -220,6 +220,7 @@ std::string KnownFigures::apply_to_foreign(vp::IpEstimate& e, const std::string&
     why = entry.mismatch(e.foreign);
     if (!why.empty()) continue;
     take(entry.point, e);
+    e.known = true;
     e.source = "synthesised from '" + e.foreign.file + "' (" + tool_ + "), '" + file + "'";
     e.fmax_origin = vp::FmaxOrigin::synthesised;
     e.fmax_hz = entry.point.fmax_hz;

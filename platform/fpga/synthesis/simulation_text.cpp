@@ -81,6 +81,8 @@ class Reader {
                     ending.count(word) > 0
                         ? "$display(\"" + ends_ + std::to_string(line_of(tokens_[i].at)) + "\");"
                         : ";");
+      } else if (in_procedure_ && is_step_before(i)) {
+        i = step_behind(i);
       } else {
         follow(i++);
       }
@@ -139,6 +141,23 @@ class Reader {
     const bool item = !open_.empty() && open_.back();  // of a case: no label
     const bool labelled = i >= 2 && word(i - 1) == ":" && !item && in_word(word(i - 2).front());
     return replace(labelled ? i - 2 : i, end, in_procedure_ ? ";" : "");
+  }
+
+  /// `++i` of a loop, or as a statement, which Yosys knows as `i++`.
+  bool is_step_before(std::size_t i) const {
+    const bool signs =
+        (word(i) == "+" && word(i + 1) == "+") || (word(i) == "-" && word(i + 1) == "-");
+    if (!signs || tokens_[i].at + 1 != tokens_[i + 1].at || i == 0) return false;
+    const std::string_view before = word(i - 1), behind = word(i + 3);
+    return !word(i + 2).empty() && in_word(word(i + 2).front()) &&
+           (before == ";" || before == ")" || before == "begin" || before == "else") &&
+           (behind == ";" || behind == ")");
+  }
+  std::size_t step_behind(std::size_t i) {
+    const std::string sign(2, word(i).front());
+    out_ += text_.substr(copied_, tokens_[i].at - copied_) + std::string(word(i + 2)) + sign;
+    copied_ = tokens_[i + 2].at + word(i + 2).size();
+    return i + 3;
   }
 
   /// Tokens from `first` up to `end` by a statement, in as many lines.

@@ -200,6 +200,7 @@ struct Mine {
     e.size = 7;
     e.fmax_hz = e.fmax_high_hz = 55 * mhz;
     e.foreign.file = folder / "mine.so";
+    e.known = false;  // as of a part that is no IP of ours
     e.foreign.sources = {"bbb", "aaa"};
     e.foreign.parameters = {{"WIDTH", 640}, {"LABELS", 64}};
     return e;

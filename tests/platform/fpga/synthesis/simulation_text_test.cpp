@@ -21,6 +21,16 @@ std::string seen(const std::string& text) {
 
 BOOST_AUTO_TEST_SUITE(simulation_text)
 
+BOOST_AUTO_TEST_CASE(a_step_before_its_variable_comes_behind) {
+  BOOST_TEST(seen("always @* for (int i = 0; i < 4; ++i) q[i] = a[i];") ==
+             "always @* for (int i = 0; i < 4; i++) q[i] = a[i];");
+  BOOST_TEST(seen("always @(posedge clk) begin --n; if (a) ++m; else ++k; end") ==
+             "always @(posedge clk) begin n--; if (a) m++; else k++; end");
+  for (const char* other : {"always @* q = a + +b;", "always @* q = - -b;", "wire c = a ++b;",
+                            "always @* if (a) q = 1; /* ++i; */"})
+    BOOST_TEST(seen(other) == other);
+}
+
 BOOST_AUTO_TEST_CASE(what_prints_becomes_an_empty_statement) {
   BOOST_TEST(seen("always @(posedge clk) if (a) $display(\"(%2d;\", f(b)); else q <= a;") ==
              "always @(posedge clk) if (a) ; else q <= a;");
