@@ -95,6 +95,29 @@ end;
   BOOST_TEST(figures("own", fast).netlist.constant_bits == 0u);
 }
 
+// GHDL takes numbers without a point only.
+BOOST_AUTO_TEST_CASE(a_real_generic_takes_a_number) {
+  write("own.vhd", logic + R"(
+entity own is
+  generic (Rate : Real range 1.0 to 1.0e9; Part_g : real := 0.5);
+  port (clk : in std_logic; d : in std_logic; q : out std_logic);
+end;
+architecture rtl of own is
+  constant length : positive := integer(Rate * Part_g);
+  signal line : std_logic_vector(length downto 1);
+begin
+  process (clk, d) begin
+    if d = '0' then line <= (others => '0');
+    elsif rising_edge(clk) then line <= line(length - 1 downto 1) & d; end if;
+  end process;
+  q <= line(length);
+end;
+)");
+  BOOST_TEST(figures("own", {{"Rate", 20}}).netlist.cells.ff == 10u);
+  BOOST_TEST(figures("own", {{"rate", 6}, {"PART_G", 2}}).netlist.cells.ff == 12u);
+  check_says(refusal("own"), {"\"rate\" has no default value", "--parameter"});
+}
+
 // The top comes first by its name, its package last, and both are in a library.
 BOOST_AUTO_TEST_CASE(sources_come_in_any_order_and_in_their_library) {
   write("a_top.vhd", logic + R"(
