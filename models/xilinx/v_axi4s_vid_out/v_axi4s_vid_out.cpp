@@ -30,13 +30,14 @@ VAxi4sVidOut::VAxi4sVidOut(sc_core::sc_module_name name, vp::Clock& vid_io_out_c
                 "folder for whole frames as PPM or PGM files; empty: none are written"),
       component_order("component_order", "gbr", vp::Source::published,
                       "components of a pixel in such files, the lowest one first (UG934)"),
-      vid_data("vid_data", build.components * build.component_bits),
+      vid_data("vid_data", build.components * build.native_bits),
       build_(build),
-      stream_bytes_(video_stream_bytes(build.components, build.component_bits, this->name())),
+      stream_bytes_(video_stream_bytes(build.components, build.component_bits, build.native_bits,
+                                       this->name())),
       fifo_(aclk, vid_io_out_clk, build.has_async_clk ? pointer_clocks : 1),
       stream_(std::make_unique<Stream>("stream", aclk, *this, stream_bytes_)),
       writer_(frames_to,
-              {build.format, build.components, build.component_bits, component_order.get()}) {}
+              {build.format, build.components, build.native_bits, component_order.get()}) {}
 
 vp::IpEstimate VAxi4sVidOut::own_estimate() const {
   const std::uint32_t bits = build_.components * build_.component_bits + 3;
@@ -164,6 +165,8 @@ std::uint64_t VAxi4sVidOut::next_pixel(const Timing& now) {
   }
   if (now.first) begin_frame();
   last_pixel_ = pop();
+  last_pixel_.data =
+      resized(last_pixel_.data, build_.components, build_.component_bits, build_.native_bits);
   if (writer_.is_on() && in_frame_) writer_.add(last_pixel_.data);
   return last_pixel_.data;
 }
@@ -208,6 +211,8 @@ VAxi4sVidOut::Stream::Stream(sc_core::sc_module_name name, vp::Clock& aclk, VAxi
 void VAxi4sVidOut::Stream::end_of_elaboration() {
   Clocked::end_of_elaboration();
   user_ = start_of_frame(s_axis_video.link());
+  if (out_.aclken.bound()) out_.aclken.signal()->attach(*this);
+  if (out_.aresetn.bound()) out_.aresetn.signal()->attach(*this);
 }
 
 void VAxi4sVidOut::Stream::edge() {
@@ -218,8 +223,11 @@ void VAxi4sVidOut::Stream::edge() {
     if (!out_.aligned_) out_.wake();
   }
   const std::size_t level = out_.fifo_.writer_level();
-  full_ = level + guard >= out_.fifo_depth || (out_.aresetn.bound() && !out_.aresetn);
-  s_axis_video.tready = !full_;
+  full_ = level + guard >= out_.fifo_depth;
+  const bool stopped =
+      (out_.aresetn.bound() && !out_.aresetn) || (out_.aclken.bound() && !out_.aclken);
+  s_axis_video.tready = !full_ && !stopped;
+  if (stopped) return sleep();
   if (full_) return sleep_until(out_.fifo_.next_free());
   if (!took && !s_axis_video.tvalid.read()) return sleep();
   wake();

@@ -21,7 +21,9 @@ namespace xilinx {
 /// Build options, as Vivado asks for them.
 struct VAxi4sVidOutBuild {
   VideoFormat format = VideoFormat::rgb;
-  unsigned components = 3, component_bits = 8;
+  unsigned components = 3;          ///< of a pixel
+  unsigned component_bits = 8;      ///< of each, on the stream
+  unsigned native_bits = 8;         ///< of each, at the native pins
   std::uint32_t fifo_depth = 1024;  ///< 2 to the power of C_ADDR_WIDTH
   std::uint32_t hysteresis = 12;    ///< pixels in the FIFO before a frame begins
   std::uint32_t lock_frames = 4;    ///< C_SYNC_LOCK_THRESHOLD
@@ -51,6 +53,7 @@ class VAxi4sVidOut : public vp::Clocked, public vp::Ip {
   // All may be left open: enabled, and no reset.
   vp::In<bool> vid_io_out_ce{"vid_io_out_ce", this}, vid_io_out_reset{"vid_io_out_reset", this};
   vp::In<bool> aresetn{"aresetn"};
+  vp::In<bool> aclken{"aclken"};  ///< low: no pixel comes in
   vp::In<bool> vtg_active_video{"vtg_active_video", this};
   vp::In<bool> vtg_hsync{"vtg_hsync", this}, vtg_vsync{"vtg_vsync", this};
   vp::In<bool> vtg_hblank{"vtg_hblank", this}, vtg_vblank{"vtg_vblank", this};

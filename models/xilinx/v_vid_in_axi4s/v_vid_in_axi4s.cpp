@@ -24,11 +24,12 @@ VVidInAxi4s::VVidInAxi4s(sc_core::sc_module_name name, vp::Clock& vid_io_in_clk,
       component_order("component_order", "gbr", vp::Source::published,
                       "components of a pixel in such files, the lowest one first (UG934)"),
       build_(build),
-      stream_bytes_(video_stream_bytes(build.components, build.component_bits, this->name())),
+      stream_bytes_(video_stream_bytes(build.components, build.component_bits, build.native_bits,
+                                       this->name())),
       fifo_(vid_io_in_clk, aclk, build.has_async_clk ? pointer_clocks : 1),
-      stream_(std::make_unique<Stream>("stream", aclk, fifo_, stream_bytes_, this->name())),
+      stream_(std::make_unique<Stream>("stream", aclk, *this)),
       camera_(frames_from,
-              {build.format, build.components, build.component_bits, component_order.get()},
+              {build.format, build.components, build.native_bits, component_order.get()},
               this->name()) {}
 
 vp::IpEstimate VVidInAxi4s::own_estimate() const {
@@ -95,7 +96,9 @@ void VVidInAxi4s::take(const Sample& now) {
   }
   if (now.levels.active) {
     ++pixels;
-    held_ = {{now.data, starts && frame_next_, false}, ticks_ + input_clocks};
+    const std::uint64_t data =
+        resized(now.data, build_.components, build_.native_bits, build_.component_bits);
+    held_ = {{data, starts && frame_next_, false}, ticks_ + input_clocks};
     holds_ = true;
   }
   if (starts) frame_next_ = false;
@@ -132,10 +135,9 @@ void VVidInAxi4s::write(const Pixel& pixel) {
 
 // ---- the stream
 
-VVidInAxi4s::Stream::Stream(sc_core::sc_module_name name, vp::Clock& aclk, Fifo& fifo,
-                            unsigned bytes, const std::string& of)
-    : Clocked(name, aclk), fifo_(fifo), bytes_(bytes) {
-  vp::StreamShape shape{of + ".m_axis_video", bytes};
+VVidInAxi4s::Stream::Stream(sc_core::sc_module_name name, vp::Clock& aclk, VVidInAxi4s& in)
+    : Clocked(name, aclk), in_(in) {
+  vp::StreamShape shape{std::string(in.name()) + ".m_axis_video", in.stream_bytes_};
   shape.user = 1;
   m_axis_video.set_shape(shape);
   wake_on(m_axis_video.tready);
@@ -144,23 +146,26 @@ VVidInAxi4s::Stream::Stream(sc_core::sc_module_name name, vp::Clock& aclk, Fifo&
 void VVidInAxi4s::Stream::end_of_elaboration() {
   Clocked::end_of_elaboration();
   user_ = start_of_frame(m_axis_video.link());
+  if (in_.aclken.bound()) in_.aclken.signal()->attach(*this);
 }
 
 void VVidInAxi4s::Stream::edge() {
   if (!m_axis_video.free()) return sleep();
-  if (fifo_.reader_level() == 0) {
+  const bool stopped = in_.aclken.bound() && !in_.aclken;
+  Fifo& fifo = in_.fifo_;
+  if (stopped || fifo.reader_level() == 0) {
     m_axis_video.withdraw();
-    return sleep_until(fifo_.next_visible());
+    return sleep_until(stopped ? vp::Clock::never : fifo.next_visible());
   }
-  offer(fifo_.front());
-  fifo_.pop();
+  offer(fifo.front());
+  fifo.pop();
   if (!m_axis_video.tready) return sleep();
   wake();
 }
 
 void VVidInAxi4s::Stream::offer(const Pixel& pixel) {
   if (user_) *user_ = pixel.first ? 1 : 0;
-  m_axis_video.offer(video_beat(pixel.data, bytes_), pixel.last);
+  m_axis_video.offer(video_beat(pixel.data, in_.stream_bytes_), pixel.last);
 }
 
 }  // namespace xilinx

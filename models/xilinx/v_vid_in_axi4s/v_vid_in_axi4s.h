@@ -20,7 +20,9 @@ namespace xilinx {
 /// Build options, as Vivado asks for them.
 struct VVidInAxi4sBuild {
   VideoFormat format = VideoFormat::rgb;
-  unsigned components = 3, component_bits = 8;
+  unsigned components = 3;          ///< of a pixel
+  unsigned component_bits = 8;      ///< of each, on the stream
+  unsigned native_bits = 8;         ///< of each, at the native pins
   std::uint32_t fifo_depth = 1024;  ///< 2 to the power of C_ADDR_WIDTH
   bool has_async_clk = true;
 };
@@ -45,6 +47,7 @@ class VVidInAxi4s : public vp::Clocked, public vp::Ip {
   // All may be left open: enabled, no reset, blank.
   vp::In<bool> vid_io_in_ce{"vid_io_in_ce", this}, vid_io_in_reset{"vid_io_in_reset", this};
   vp::In<bool> aresetn{"aresetn"}, axis_enable{"axis_enable", this};
+  vp::In<bool> aclken{"aclken"};  ///< low: no further pixel goes out
   vp::In<bool> vid_active_video{"vid_active_video", this};
   vp::In<bool> vid_hsync{"vid_hsync", this}, vid_vsync{"vid_vsync", this};
   vp::In<bool> vid_hblank{"vid_hblank", this}, vid_vblank{"vid_vblank", this};
@@ -73,8 +76,7 @@ class VVidInAxi4s : public vp::Clocked, public vp::Ip {
   /// The side of the stream.
   class Stream : public vp::Clocked {
    public:
-    Stream(sc_core::sc_module_name name, vp::Clock& aclk, Fifo& fifo, unsigned bytes,
-           const std::string& of);
+    Stream(sc_core::sc_module_name name, vp::Clock& aclk, VVidInAxi4s& in);
     const char* kind() const override { return "xilinx::VVidInStream"; }
     vp::AxiStreamMaster m_axis_video{"m_axis_video", *this};
 
@@ -83,8 +85,7 @@ class VVidInAxi4s : public vp::Clocked, public vp::Ip {
     void edge() override;
     void offer(const Pixel& pixel);
 
-    Fifo& fifo_;
-    const unsigned bytes_;
+    VVidInAxi4s& in_;
     vp::Signal<std::uint32_t>* user_ = nullptr;
   };
 

@@ -331,6 +331,7 @@ std::vector<IpRule> rules() {
       {"vio", Kind::left_out, "virtual pins of the debugger"},
       {"jtag_axi", Kind::left_out, "bus master of the debugger"},
       {"debug_bridge", Kind::left_out, "debugger"}};
+  for (IpRule& rule : video_rules()) list.push_back(std::move(rule));
   for (const OwnIp& own : own_ips()) list.push_back(own.rule);
   std::sort(list.begin(), list.end(), [](const IpRule& a, const IpRule& b) { return a.ip < b.ip; });
   return list;

@@ -53,6 +53,9 @@ const std::map<std::string, Names>& outputs_without_model() {
        {"axis_data_count", "axis_wr_data_count", "axis_rd_data_count", "almost_empty",
         "almost_full", "prog_empty", "prog_full"}},
       {"clk_wiz", {"psdone", "input_clk_stopped", "clkfb_stopped", "cddcdone", "interrupt"}},
+      {"v_axi4s_vid_out", {"status", "fifo_read_level", "sof_state_out", "vid_field_id"}},
+      {"v_tc", {"active_chroma_out", "field_id_out"}},
+      {"v_vid_in_axi4s", {"fid", "vtd_field_id"}},
       {"xadc_wiz",
        {"channel_out", "eoc_out", "eos_out", "busy_out", "temp_out", "muxaddr_out",
         "jtaglocked_out", "jtagmodified_out", "jtagbusy_out"}}};
