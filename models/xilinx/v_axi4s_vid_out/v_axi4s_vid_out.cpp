@@ -28,6 +28,8 @@ VAxi4sVidOut::VAxi4sVidOut(sc_core::sc_module_name name, vp::Clock& vid_io_out_c
                   "frames in a row that are in place when it locks"),
       frames_to("frames_to", "", vp::Source::decision,
                 "folder for whole frames as PPM or PGM files; empty: none are written"),
+      most_frames("most_frames", 100, vp::Unit::none, {1, 10'000}, vp::Source::decision,
+                  "files that it writes; of later frames there are none"),
       component_order("component_order", "gbr", vp::Source::published,
                       "components of a pixel in such files, the lowest one first (UG934)"),
       vid_data("vid_data", build.components * build.native_bits),
@@ -185,7 +187,7 @@ void VAxi4sVidOut::end_frame() {
   in_frame_ = false;
   ++frames;
   if (++good_frames_ >= lock_frames) locked = true;
-  if (writer_.is_on()) writer_.end();
+  if (writer_.is_on() && writer_.written() < most_frames) writer_.end();
 }
 
 void VAxi4sVidOut::lose(const char* why) {

@@ -48,6 +48,7 @@ class VAxi4sVidOut : public vp::Clocked, public vp::Ip {
   vp::Parameter<std::uint32_t> hysteresis;
   vp::Parameter<std::uint32_t> lock_frames;
   vp::Parameter<std::string> frames_to;
+  vp::Parameter<std::uint32_t> most_frames;
   vp::Parameter<std::string> component_order;
 
   // All may be left open: enabled, and no reset.

@@ -66,7 +66,8 @@ inline MasterPort memory_master(xilinx::MemoryPort& port) {
 /// What places an IP that has registers and little else; null for any other IP.
 using Placer = Placed (*)(const Placement& at);
 Placer peripheral_placer(const std::string& ip);
-/// The same of IP of video.
+/// The same of IP of streams, which depends on its parameters, and of IP of video.
+Placer stream_placer(const Placement& at);
 Placer video_placer(const std::string& ip);
 
 /// The UART Lite whose `tx` drives the `rx` of this one; null: none does.

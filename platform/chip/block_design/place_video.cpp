@@ -118,7 +118,7 @@ Placed place_video_out(const Placement& at) {
       at.part.name.c_str(), native_clock(at, "vid_io_out_clk", build.has_async_clk), aclk, build);
   Placed placed;
   placed.inputs = {{"aresetn", input(at, "aresetn", out->aresetn)},
-      {"aclken", input(at, "aclken", out->aclken)},
+                   {"aclken", input(at, "aclken", out->aclken)},
                    {"vid_io_out_ce", input(at, "vid_io_out_ce", out->vid_io_out_ce)},
                    {"vid_io_out_reset", input(at, "vid_io_out_reset", out->vid_io_out_reset)},
                    {"vtg_active_video", input(at, "vtg_active_video", out->vtg_active_video)},
@@ -152,7 +152,7 @@ Placed place_video_in(const Placement& at) {
       at.part.name.c_str(), native_clock(at, "vid_io_in_clk", build.has_async_clk), aclk, build);
   Placed placed;
   placed.inputs = {{"aresetn", input(at, "aresetn", in->aresetn)},
-      {"aclken", input(at, "aclken", in->aclken)},
+                   {"aclken", input(at, "aclken", in->aclken)},
                    {"axis_enable", input(at, "axis_enable", in->axis_enable)},
                    {"vid_io_in_ce", input(at, "vid_io_in_ce", in->vid_io_in_ce)},
                    {"vid_io_in_reset", input(at, "vid_io_in_reset", in->vid_io_in_reset)},

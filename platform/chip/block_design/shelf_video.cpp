@@ -17,8 +17,8 @@ IpRule timing_controller() {
   std::vector<ParameterRule> list{
       {"C_HAS_AXI4_LITE", "1", {"0", "1"}}, {"C_GENERATE_EN", "1", {"0", "1"}},
       {"C_DETECT_EN", "1", {"0", "1"}},     fixed("C_SYNC_EN", "0"),
-      fixed("C_INTERLACE_EN", "0"),          fixed("C_GEN_INTERLACED", "0"),
-      fixed("C_ARBITRARY_RES_EN", "0"),      fixed("C_GEN_AUTO_SWITCH", "0"),
+      fixed("C_INTERLACE_EN", "0"),         fixed("C_GEN_INTERLACED", "0"),
+      fixed("C_ARBITRARY_RES_EN", "0"),     fixed("C_GEN_AUTO_SWITCH", "0"),
       {"C_NUM_FSYNCS", "1", {}, 1, 16}};
   const std::pair<const char*, const char*> sizes[] = {
       {"HACTIVE_SIZE", "1280"},   {"HFRAME_SIZE", "1650"},     {"HSYNC_START", "1390"},
