@@ -22,6 +22,9 @@ constexpr std::uint32_t DETECTOR_HSYNC = 0x038;
 constexpr std::uint32_t DETECTOR_F0_VBLANK_H = 0x03C;
 constexpr std::uint32_t DETECTOR_F0_VSYNC_V = 0x040;
 constexpr std::uint32_t DETECTOR_F0_VSYNC_H = 0x044;
+constexpr std::uint32_t DETECTOR_F1_VBLANK_H = 0x048;
+constexpr std::uint32_t DETECTOR_F1_VSYNC_V = 0x04C;
+constexpr std::uint32_t DETECTOR_F1_VSYNC_H = 0x050;
 constexpr std::uint32_t GENERATOR_ACTIVE_SIZE = 0x060;
 constexpr std::uint32_t GENERATOR_TIMING_STATUS = 0x064;
 constexpr std::uint32_t GENERATOR_ENCODING = 0x068;
@@ -186,6 +189,12 @@ inline constexpr vp::RegisterInfo registers[] = {
      "Detected lines in which the vertical sync ends and starts"},
     {"DETECTOR_F0_VSYNC_H", DETECTOR_F0_VSYNC_H, 0, vp::Access::read_only, 0,
      "Detected clocks in a line where the vertical sync ends and starts"},
+    {"DETECTOR_F1_VBLANK_H", DETECTOR_F1_VBLANK_H, 0, vp::Access::read_only, 0,
+     "The same of field 1, which is not modelled"},
+    {"DETECTOR_F1_VSYNC_V", DETECTOR_F1_VSYNC_V, 0, vp::Access::read_only, 0,
+     "The same of field 1, which is not modelled"},
+    {"DETECTOR_F1_VSYNC_H", DETECTOR_F1_VSYNC_H, 0, vp::Access::read_only, 0,
+     "The same of field 1, which is not modelled"},
     {"GENERATOR_ACTIVE_SIZE", GENERATOR_ACTIVE_SIZE, 0, vp::Access::read_write, both_halves,
      "Lines and pixels of a frame"},
     {"GENERATOR_TIMING_STATUS", GENERATOR_TIMING_STATUS, 0, vp::Access::read_only, 0,
