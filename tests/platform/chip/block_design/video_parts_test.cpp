@@ -222,6 +222,54 @@ BOOST_AUTO_TEST_CASE(values_of_hand_offs_that_are_modelled_are_no_stubs) {
   }
 }
 
+// As Vivado writes them: timing and native video are pins with nets, and streams are buses.
+BOOST_AUTO_TEST_CASE(a_hand_off_of_a_video_loop_is_built_without_a_stub_of_it) {
+  const auto clocked = [](const char* name) {
+    return kit::pin("I", name, "ps_FCLK_CLK0", 1, R"(SIGIS="clk" CLKFREQUENCY="100000000")");
+  };
+  std::string sizes = kit::parameter("C_HAS_AXI4_LITE", "0") + kit::parameter("C_DETECT_EN", "0") +
+                      kit::parameter("VIDEO_MODE", "Custom");
+  const std::pair<const char*, const char*> frame[] = {
+      {"HACTIVE_SIZE", "16"},    {"HFRAME_SIZE", "176"},    {"HSYNC_START", "64"},
+      {"HSYNC_END", "96"},       {"VACTIVE_SIZE", "8"},     {"F0_VFRAME_SIZE", "38"},
+      {"F0_VSYNC_VSTART", "10"}, {"F0_VSYNC_VEND", "16"},   {"F0_VBLANK_HSTART", "16"},
+      {"F0_VBLANK_HEND", "16"},  {"F0_VSYNC_HSTART", "64"}, {"F0_VSYNC_HEND", "64"}};
+  for (const auto& [name, value] : frame)
+    sizes += kit::parameter(std::string("C_GEN_") + name, value);
+  std::string timing = clocked("clk") + kit::pin("I", "gen_clken", "vid_out_vtg_ce");
+  std::string screen = clocked("aclk") + clocked("vid_io_out_clk") +
+                       kit::pin("O", "vtg_ce", "vid_out_vtg_ce") +
+                       kit::pin("O", "vid_data", "vid_out_vid_data", 24);
+  for (const std::string wire : {"hsync", "vsync", "hblank", "vblank", "active_video"}) {
+    timing += kit::pin("O", wire + "_out", "tc_" + wire);
+    screen += kit::pin("I", "vtg_" + wire, "tc_" + wire);
+  }
+  kit::HwhText text = kit::small_handoff();
+  text.module("v_tc_0", "xilinx.com:ip:v_tc:6.2", sizes, timing)
+      .module("vid_out", "xilinx.com:ip:v_axi4s_vid_out:4.0", kit::parameter("C_ADDR_WIDTH", "10"),
+              screen, kit::bus("TARGET", "video_in", "vid_in_video_out", "axis"))
+      .module("vid_in", "xilinx.com:ip:v_vid_in_axi4s:5.0", "",
+              clocked("aclk") + clocked("vid_io_in_clk"),
+              kit::bus("INITIATOR", "video_out", "vid_in_video_out", "axis"));
+  const auto design =
+      platform::block_design::import_design(platform::handoff::read_hwh(text.text(), "small.hwh"));
+  for (const ImportedPart& part : design.parts)
+    BOOST_TEST(((part.kind == Kind::stub) == (part.name == "own_0")), part.name);
+  const kit::TemporaryFolder folder;
+  const auto picture = some_picture(1);
+  vp::write_file(folder / "one.ppm", format_picture(picture));
+  BuiltDesign chip(design.text, {"pl.vid_in.frames_from=" + (folder / "one.ppm"),
+                                 "pl.vid_out.frames_to=" + (folder / "screen")});
+  pass_exactly_us(200);  // frames of 67 us
+  auto& out = chip.part<xilinx::VAxi4sVidOut>("vid_out");
+  BOOST_TEST(out.frames.get() == 2u);
+  BOOST_TEST(out.black.get() == 0u);
+  BOOST_TEST(!out.locked.get());  // with four
+  BOOST_TEST((xilinx::read_picture(folder / "screen/frame_0001.ppm").bytes == picture.bytes));
+  pass_exactly_us(150);
+  BOOST_TEST(out.locked.get());
+}
+
 BOOST_AUTO_TEST_CASE(a_generated_fifo_has_the_pins_of_the_vendor) {
   const std::string text =
       replaced(pipeline(), "addresses:\n",
