@@ -147,9 +147,6 @@ FrameWriter::FrameWriter(std::string folder, PixelLayout layout)
     : folder_(std::move(folder)), layout_(std::move(layout)) {
   if (!is_on()) return;
   check_layout(layout_, folder_);
-  std::error_code failed;
-  std::filesystem::create_directories(folder_, failed);
-  if (failed) throw vp::OutputError(folder_, failed.value());
 }
 
 void FrameWriter::begin() {
@@ -170,6 +167,9 @@ void FrameWriter::end_line() {
 
 void FrameWriter::end() {
   if (picture_.height == 0 || !even_) return;
+  std::error_code failed;
+  if (count_ == 0) std::filesystem::create_directories(folder_, failed);
+  if (failed) throw vp::OutputError(folder_, failed.value());
   char name[32];
   std::snprintf(name, sizeof name, "/frame_%04u.%s", count_,
                 picture_.channels == 3 ? "ppm" : "pgm");

@@ -48,7 +48,7 @@ void check_layout(const PixelLayout& layout, const std::string& of);
 /// Writes frames into a folder as frame_0000.ppm and so on; a grey one as .pgm.
 class FrameWriter {
  public:
-  /// `folder` is made if it is not there; "": nothing is written. Throws vp::OutputError.
+  /// "": nothing is written. Throws vp::InputError for a layout that files cannot have.
   FrameWriter(std::string folder, PixelLayout layout);
   bool is_on() const { return !folder_.empty(); }
   const std::string& folder() const { return folder_; }
@@ -57,7 +57,7 @@ class FrameWriter {
   void add(std::uint64_t word) { append_pixel(picture_, word, layout_); }
   /// Behind the last pixel of a line.
   void end_line();
-  /// Writes what came since begin(). Throws vp::OutputError.
+  /// Writes what came since begin(); the first time it makes the folder. Throws vp::OutputError.
   void end();
   unsigned written() const { return count_; }
 

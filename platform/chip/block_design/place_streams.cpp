@@ -6,6 +6,7 @@
 #include <chip/block_design/place_ports.h>
 #include <xilinx/axis_buffer/axis_buffer.h>
 #include <xilinx/axis_clock_fifo/axis_clock_fifo.h>
+#include <xilinx/axis_fan/axis_fan.h>
 #include <xilinx/axis_subset_converter/axis_subset_converter.h>
 #include <xilinx/fifo_generator/fifo_generator.h>
 
@@ -81,6 +82,48 @@ Placed place_subset_converter(const Placement& at) {
   return placed;
 }
 
+std::string two_digits(unsigned number) {
+  return (number < 10 ? "0" : "") + std::to_string(number);
+}
+
+Placed place_broadcaster(const Placement& at) {
+  const std::uint32_t in = word(at, "S_TDATA_NUM_BYTES"), out = word(at, "M_TDATA_NUM_BYTES");
+  std::vector<std::string> remaps;
+  for (unsigned n = 0; n < word(at, "NUM_MI"); ++n)
+    remaps.push_back(at.text("M" + two_digits(n) + "_TDATA_REMAP"));
+  vp::Clock& clock = at.clock({"aclk"});
+  auto fan = std::make_unique<xilinx::AxisBroadcaster>(at.part.name.c_str(), clock, in, out,
+                                                       word(at, "S_TUSER_WIDTH"), remaps);
+  xilinx::AxisBroadcaster* model = fan.get();
+  Placed placed;
+  placed.inputs = {{"aresetn", input(at, "aresetn", fan->aresetn)}};
+  placed.stream_slaves["S_AXIS"] = {
+      [model](vp::AxiStream& link, vp::Clock&) { model->s_axis(link); }, &clock, in};
+  for (unsigned n = 0; n < remaps.size(); ++n)
+    placed.stream_masters["M" + two_digits(n) + "_AXIS"] = {
+        [model, n](vp::AxiStream& link, vp::Clock&) { model->m_axis(n)(link); }, &clock, out};
+  placed.object = std::move(fan);
+  return placed;
+}
+
+Placed place_combiner(const Placement& at) {
+  const std::uint32_t inputs = word(at, "NUM_SI"), bytes = word(at, "TDATA_NUM_BYTES");
+  vp::Clock& clock = at.clock({"aclk"});
+  auto fan =
+      std::make_unique<xilinx::AxisCombiner>(at.part.name.c_str(), clock, inputs, bytes,
+                                             word(at, "TUSER_WIDTH"), word(at, "MASTER_PORT_NUM"));
+  xilinx::AxisCombiner* model = fan.get();
+  Placed placed;
+  placed.inputs = {{"aresetn", input(at, "aresetn", fan->aresetn)}};
+  for (unsigned n = 0; n < inputs; ++n)
+    placed.stream_slaves["S" + two_digits(n) + "_AXIS"] = {
+        [model, n](vp::AxiStream& link, vp::Clock&) { model->s_axis(n)(link); }, &clock, bytes};
+  placed.stream_masters["M_AXIS"] = {
+      [model](vp::AxiStream& link, vp::Clock&) { model->m_axis(link); }, &clock, inputs * bytes};
+  placed.object = std::move(fan);
+  return placed;
+}
+
 /// One of the FIFO generator with AXI4-Stream ports.
 Placed place_generated_stream(const Placement& at) {
   const std::uint32_t depth = word(at, "Input_Depth_axis");
@@ -141,7 +184,9 @@ Placer stream_placer(const Placement& at) {
   const std::string& ip = at.part.rule()->ip;
   if (ip == "axis_data_fifo") return at.flag("IS_ACLK_ASYNC") ? place_async_fifo : nullptr;
   static const std::map<std::string, Placer> placers{
+      {"axis_broadcaster", place_broadcaster},
       {"axis_clock_converter", place_clock_converter},
+      {"axis_combiner", place_combiner},
       {"axis_subset_converter", place_subset_converter},
       {"fifo_generator", place_fifo_generator}};
   const auto found = placers.find(ip);

@@ -64,6 +64,14 @@ IpRule fifo_generator() {
 }  // namespace
 
 std::vector<IpRule> stream_rules() {
+  std::vector<ParameterRule> broadcaster{{"NUM_MI", "2", {}, 2, 16},
+                                         {"S_TDATA_NUM_BYTES", "4", {}, 1, 128},
+                                         {"M_TDATA_NUM_BYTES", "4", {}, 1, 128},
+                                         {"S_TUSER_WIDTH", "0", {}, 0, 32},
+                                         {"TID_WIDTH", "0", {"0"}},
+                                         {"TDEST_WIDTH", "0", {"0"}}};
+  for (unsigned n = 0; n < 16; ++n)
+    broadcaster.push_back({(n < 10 ? "M0" : "M") + std::to_string(n) + "_TDATA_REMAP", ""});
   return {
       {"axis_data_fifo", Kind::model, "AXI4-Stream FIFO with one clock or two (PG085)",
        stream_parameters(
@@ -78,6 +86,18 @@ std::vector<IpRule> stream_rules() {
        {{"S_TDATA_NUM_BYTES", "4", {}, 1, 128},
         {"M_TDATA_NUM_BYTES", "4", {}, 1, 128},
         {"TUSER_BITS_PER_BYTE", "0", {"0"}},
+        {"TID_WIDTH", "0", {"0"}},
+        {"TDEST_WIDTH", "0", {"0"}}}},
+      {"axis_broadcaster", Kind::model,
+       "AXI4-Stream broadcaster without TID and TDEST (PG085): takes a clock",
+       std::move(broadcaster)},
+      {"axis_combiner",
+       Kind::model,
+       "AXI4-Stream combiner without TID and TDEST (PG085): takes a clock",
+       {{"NUM_SI", "2", {}, 2, 16},
+        {"TDATA_NUM_BYTES", "4", {}, 1, 64},
+        {"TUSER_WIDTH", "0", {}, 0, 32},
+        {"MASTER_PORT_NUM", "0", {}, 0, 15},
         {"TID_WIDTH", "0", {"0"}},
         {"TDEST_WIDTH", "0", {"0"}}}},
       subset_converter(),

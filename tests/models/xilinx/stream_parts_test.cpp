@@ -4,6 +4,7 @@
 #include <vp/clock_scheduler.h>
 #include <vp/report.h>
 #include <xilinx/axis_clock_fifo/axis_clock_fifo.h>
+#include <xilinx/axis_fan/axis_fan.h>
 #include <xilinx/axis_subset_converter/axis_subset_converter.h>
 #include <xilinx/fifo_generator/fifo_generator.h>
 #include <boost/test/unit_test.hpp>
@@ -136,6 +137,60 @@ BOOST_AUTO_TEST_CASE(a_subset_converter_moves_bits_and_ends_packets) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(copies_of_a_beat_go_out_and_come_together) {
+  Clocks clocks;
+  vp::StreamSource source("source", clocks.fast);
+  xilinx::AxisBroadcaster fan("fan", clocks.fast, 4, 2, 0, {"", "tdata[23:16],8'hEE"});
+  xilinx::AxisCombiner join("join", clocks.fast, 2, 2, 0, 1);
+  vp::StreamSink sink("sink", clocks.fast);
+  vp::AxiStream in("in"), low("low"), high("high"), out("out");
+  source.m_axis(in);
+  fan.s_axis(in);
+  fan.m_axis(0)(low);
+  fan.m_axis(1)(high);
+  join.s_axis(0)(low);
+  join.s_axis(1)(high);
+  join.m_axis(out);
+  sink.s_axis(out);
+  sink.ready_on = [](std::uint64_t cycle) { return cycle < 20 || cycle % 3 != 0; };
+  for (std::uint32_t i = 0; i < 20; ++i) source.send(0x00550000 | i << 16 | i, i % 5 == 4);
+  Clocks::run_ns(1'000);
+  BOOST_TEST(in.beats.get() == 20u);
+  BOOST_TEST_REQUIRE(sink.beats.size() == 20u);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    if (i < 10) BOOST_TEST(sink.beats[i].cycle == sink.beats[0].cycle + i);  // a beat a clock
+    const std::uint32_t middle = (0x55 | i) & 0xFF;
+    BOOST_TEST(sink.beats[i].data == (middle << 24 | 0x00EE0000 | i));
+    BOOST_TEST(sink.beats[i].last == (i % 5 == 4));
+  }
+}
+
+// One output that never takes its copy holds the others behind theirs.
+BOOST_AUTO_TEST_CASE(a_broadcaster_waits_for_all_outputs) {
+  Clocks clocks;
+  vp::StreamSource source("source", clocks.fast);
+  xilinx::AxisBroadcaster fan("fan", clocks.fast, 4, 4, 0, {"", ""});
+  vp::StreamSink one("one", clocks.fast), two("two", clocks.fast);
+  vp::AxiStream in("in"), to_one("to_one"), to_two("to_two");
+  source.m_axis(in);
+  fan.s_axis(in);
+  fan.m_axis(0)(to_one);
+  fan.m_axis(1)(to_two);
+  one.s_axis(to_one);
+  two.s_axis(to_two);
+  two.ready_on = [](std::uint64_t) { return false; };
+  for (std::uint32_t i = 0; i < 5; ++i) source.send(i, false);
+  Clocks::run_ns(300);
+  BOOST_TEST(in.beats.get() == 2u);
+  BOOST_TEST(one.beats.size() == 2u);
+  BOOST_TEST(two.beats.empty());
+  two.ready_on = [](std::uint64_t) { return true; };
+  two.wake();
+  Clocks::run_ns(300);
+  BOOST_TEST_REQUIRE(two.beats.size() == 5u);
+  BOOST_TEST(one.beats.size() == 5u);
+}
+
 BOOST_AUTO_TEST_CASE(words_come_out_in_order_and_flags_say_so) {
   for (const bool falls_through : {false, true}) {
     Clocks c;
@@ -221,6 +276,12 @@ BOOST_AUTO_TEST_CASE(widths_that_no_model_has) {
   BOOST_TEST(input_error([&] {
                xilinx::AxisClockFifo f("f", c.slow, c.fast, {129, 16});
              }).find("streams of 129 bytes are not modelled") != std::string::npos);
+  BOOST_TEST(input_error([&] {
+               xilinx::AxisBroadcaster f("h", c.slow, 4, 2, 0, {"tdata[7:0]"});
+             }).find("the remap must have 16 bits") != std::string::npos);
+  BOOST_TEST(input_error([&] {
+               xilinx::AxisCombiner f("i", c.slow, 1, 4, 0, 0);
+             }).find("two inputs or more") != std::string::npos);
   xilinx::FifoGeneratorBuild wide;
   wide.width = 65;
   BOOST_TEST(input_error([&] {

@@ -211,6 +211,8 @@ BOOST_AUTO_TEST_CASE(values_of_hand_offs_that_are_modelled_are_no_stubs) {
       {"xilinx.com:ip:axis_data_fifo:2.0", p("IS_ACLK_ASYNC", "1"), ""},
       {"xilinx.com:ip:axis_data_fifo:2.0", p("FIFO_MODE", "2"), "FIFO_MODE = 2 is not modelled"},
       {"xilinx.com:ip:axis_subset_converter:1.1", p("TDATA_REMAP", "tdata[7:0],16'h0000"), ""},
+      {"xilinx.com:ip:axis_broadcaster:1.1", p("NUM_MI", "3"), ""},
+      {"xilinx.com:ip:axis_combiner:1.1", p("TDEST_WIDTH", "4"), "TDEST_WIDTH = 4 is not modelled"},
       {"xilinx.com:ip:fifo_generator:13.2", p("C_COMMON_CLOCK", "0"), ""},
       {"xilinx.com:ip:fifo_generator:13.2", p("INTERFACE_TYPE", "AXI_MEMORY_MAPPED"),
        "INTERFACE_TYPE = AXI_MEMORY_MAPPED is not modelled"}};
@@ -220,6 +222,37 @@ BOOST_AUTO_TEST_CASE(values_of_hand_offs_that_are_modelled_are_no_stubs) {
     BOOST_TEST((part.kind == (is_model ? Kind::model : Kind::stub)), one.vlnv);
     BOOST_TEST((part.why.find(one.why) != std::string::npos), part.why);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_stream_parts_and_comes_together) {
+  const std::string on = "aclk: ps.FCLK_CLK1, aresetn: rst.peripheral_aresetn";
+  const std::string parts =
+      video_part("fan", "axis_broadcaster:1.1",
+                 "S_TDATA_NUM_BYTES: 3, M_TDATA_NUM_BYTES: 1, S_TUSER_WIDTH: 1, "
+                 "M00_TDATA_REMAP: 'tdata[7:0]', M01_TDATA_REMAP: 'tdata[23:16]'",
+                 on, "S_AXIS: camera.video_out") +
+      video_part("join", "axis_combiner:1.1", "TDATA_NUM_BYTES: 1, TUSER_WIDTH: 1", on,
+                 "S00_AXIS: fan.M00_AXIS, S01_AXIS: fan.M01_AXIS") +
+      video_part("grey", "axis_subset_converter:1.1",
+                 "S_TDATA_NUM_BYTES: 2, M_TDATA_NUM_BYTES: 3, S_TUSER_WIDTH: 1, M_TUSER_WIDTH: 1, "
+                 "TDATA_REMAP: 'tdata[15:8],8''h00,tdata[7:0]'",
+                 on, "S_AXIS: join.M_AXIS");
+  std::string text = replaced(pipeline(), "S_AXIS: camera.video_out", "S_AXIS: grey.M_AXIS");
+  text = replaced(text, "addresses:\n", parts + "addresses:\n");
+  const kit::TemporaryFolder folder;
+  const auto picture = some_picture(9);
+  vp::write_file(folder / "one.ppm", format_picture(picture));
+  BuiltDesign chip(text, {"pl.camera.frames_from=" + (folder / "one.ppm")});
+  auto& vdma = chip.part<xilinx::AxiVdma>("vdma");
+  pass_exactly_us(1);
+  start(vdma, axi_vdma::s2mm, axi_vdma::vdmacr::RS | axi_vdma::vdmacr::Circular_Park | 1u << 16);
+  pass_exactly_us(200);
+  BOOST_TEST(vdma.s2mm()->frames.get() == 1u);
+  // Blue is gone, and green and red have changed places on the way into the memory.
+  const unsigned char* pixel = chip.zynq->ps.ddr.at(0x1000'0000, 3);
+  BOOST_TEST(unsigned{pixel[0]} == unsigned{picture.bytes[1]});
+  BOOST_TEST(unsigned{pixel[1]} == unsigned{picture.bytes[0]});
+  BOOST_TEST(unsigned{pixel[2]} == 0u);
 }
 
 // As Vivado writes them: timing and native video are pins with nets, and streams are buses.
