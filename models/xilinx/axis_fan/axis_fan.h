@@ -19,7 +19,8 @@ namespace xilinx {
 class AxisBroadcaster : public vp::Clocked, public vp::Ip {
  public:
   /// An output has the lowest `out_bytes` of each beat, or the bytes that its remap says, as
-  /// "tdata[15:8],tdata[7:0]"; "" for none. Throws vp::InputError for a remap that is none.
+  /// "tdata[15:8],tdata[7:0]"; "" for none. Throws vp::InputError for a remap that cannot be
+  /// read or is not as wide as the output.
   AxisBroadcaster(sc_core::sc_module_name name, vp::Clock& aclk, std::uint32_t in_bytes,
                   std::uint32_t out_bytes, std::uint32_t user,
                   const std::vector<std::string>& remaps);

@@ -33,8 +33,8 @@ struct AxisSubsetConverterBuild {
 /// takes a clock, where the vendor's has none unless it is asked for (assumed).
 class AxisSubsetConverter : public vp::Clocked, public vp::Ip {
  public:
-  /// Throws vp::InputError for an expression that is none, that asks for bits that do not come, or
-  /// that is not as wide as its signal.
+  /// Throws vp::InputError for an expression that cannot be read, that asks for bits that do not
+  /// come, or that is not as wide as its signal.
   AxisSubsetConverter(sc_core::sc_module_name name, vp::Clock& aclk,
                       const AxisSubsetConverterBuild& build);
   const char* kind() const override { return "xilinx::AxisSubsetConverter"; }

@@ -23,9 +23,9 @@ struct FifoGeneratorBuild {
 };
 
 /// FIFO generator v13.2 with native ports (PG057), equal widths. With one clock it holds `depth`
-/// words, with two of them one less; a first word that falls through adds two. A word is on the
-/// reading side a clock after the write (assumed), with two clocks by the pointers' registers
-/// later. Its reset empties it, and is looked at on edges.
+/// words, with two of them one less; a first word that falls through adds two (assumed). A word is
+/// on the reading side a clock after the write (assumed), with two clocks by the pointers'
+/// registers later. Its reset empties it, and is looked at on edges.
 class FifoGenerator : public vp::Clocked, public vp::Ip {
  public:
   FifoGenerator(sc_core::sc_module_name name, vp::Clock& wr_clk, vp::Clock& rd_clk,

@@ -36,7 +36,7 @@ struct VTcBuild {
 /// and a generator that follows the detector's position; programs that ask for them are warned.
 class VTc : public vp::Clocked, public vp::Ip {
  public:
-  /// Throws vp::InputError for a timing that is none.
+  /// Throws vp::InputError for a timing that describes no frame.
   VTc(sc_core::sc_module_name name, vp::Clock& clk, const VTcBuild& build = {});
   const char* kind() const override { return "xilinx::VTc"; }
 
