@@ -14,6 +14,7 @@
 #include <xilinx/v_vid_in_axi4s/v_vid_in_axi4s.h>
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <string>
 
 #include "built_design.h"
@@ -288,6 +289,11 @@ BOOST_AUTO_TEST_CASE(a_hand_off_of_a_video_loop_is_built_without_a_stub_of_it) {
       platform::block_design::import_design(platform::handoff::read_hwh(text.text(), "small.hwh"));
   for (const ImportedPart& part : design.parts)
     BOOST_TEST(((part.kind == Kind::stub) == (part.name == "own_0")), part.name);
+  for (const char* setting : {"pl.vid_in.frames_from", "pl.vid_out.frames_to"})
+    BOOST_TEST(
+        std::count_if(design.notes.begin(), design.notes.end(), [&](const std::string& note) {
+          return note.find(setting) != std::string::npos;
+        }) == 1);
   const kit::TemporaryFolder folder;
   const auto picture = some_picture(1);
   vp::write_file(folder / "one.ppm", format_picture(picture));
