@@ -194,6 +194,30 @@ BOOST_AUTO_TEST_CASE(lines_and_frames_of_another_size_lose_the_lock) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(enables_and_resets_stop_the_stream_and_the_pixels) {
+  Output b;
+  vp::Signal<bool> enable("enable"), reset("reset");
+  b.out.aclken(enable);
+  b.out.vid_io_out_reset(reset);
+  b.sender.send(6, 3, 8);
+  b.run(100);
+  BOOST_TEST(b.link.beats.get() == 0u);
+  enable = true;
+  b.run(200);
+  BOOST_TEST(b.out.locked.get());
+  const std::uint64_t frames = b.out.frames.get();
+  BOOST_TEST(frames == 3u);
+  reset = true;
+  b.run(100);
+  BOOST_TEST(!b.out.locked.get());
+  BOOST_TEST(b.out.frames.get() == frames);
+  reset = false;
+  b.run(200);
+  // The rest of the frame under way is dropped, and those behind it are in place again.
+  BOOST_TEST(b.out.locked.get());
+  BOOST_TEST(b.out.frames.get() == frames + 3);
+}
+
 BOOST_AUTO_TEST_CASE(a_timing_that_is_the_master_is_not_held) {
   xilinx::VAxi4sVidOutBuild build = small_out();
   build.timing_is_master = true;
