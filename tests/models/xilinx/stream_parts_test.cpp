@@ -96,6 +96,38 @@ BOOST_AUTO_TEST_CASE(a_full_fifo_holds_its_master) {
   for (std::uint32_t i = 0; i < 30; ++i) BOOST_TEST(line.sink.beats[i].data == i);
 }
 
+// Every second fast edge coincides with a slow one.
+BOOST_AUTO_TEST_CASE(the_order_in_which_clocks_are_made_changes_nothing) {
+  std::vector<std::uint64_t> passed[2];
+  for (const bool slow_first : {true, false}) {
+    kit::Simulation simulation;
+    vp::ClockScheduler scheduler("scheduler");
+    std::unique_ptr<vp::Clock> slow, fast;
+    const auto make_slow = [&] {
+      slow = std::make_unique<vp::Clock>("slow", scheduler, 50'000'000);
+    };
+    if (slow_first) make_slow();
+    fast = std::make_unique<vp::Clock>("fast", scheduler, 100'000'000);
+    if (!slow_first) make_slow();
+    vp::AxiStream in("in"), middle("middle"), out("out");
+    vp::StreamSource source("source", *fast);
+    xilinx::AxisClockFifo down("down", *fast, *slow, {4, 4}), up("up", *slow, *fast, {4, 4});
+    vp::StreamSink sink("sink", *fast);
+    sink.ready_on = [](std::uint64_t cycle) { return cycle % 7 < 3; };
+    source.m_axis(in);
+    down.s_axis(in);
+    down.m_axis()(middle);
+    up.s_axis(middle);
+    up.m_axis()(out);
+    sink.s_axis(out);
+    for (std::uint32_t i = 0; i < 60; ++i) source.send(i, i % 4 == 3);
+    Clocks::run_ns(5'000);
+    for (const auto& beat : sink.beats) passed[slow_first ? 0 : 1].push_back(beat.cycle);
+  }
+  BOOST_TEST(passed[0].size() == 60u);
+  BOOST_TEST(passed[0] == passed[1], boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_CASE(expressions_say_where_bits_come_from) {
   using From = xilinx::RemapBit::From;
   const auto bits = xilinx::parse_remap("{tuser[0], 4'b0_101 ,tdata[9:8],2'h2}", "x");
