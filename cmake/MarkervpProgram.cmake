@@ -7,8 +7,8 @@ set(markervp_vendor_folder "${CMAKE_CURRENT_LIST_DIR}")
 # The folders of the vendor's drivers that VENDOR_BSP looks for: those whose devices are modelled are built, of the others a
 # program finds the headers.
 set(markervp_vendor_built axicdma axidma axivdma devcfg gpio gpiops iic iicps intc llfifo qspips scugic scutimer scuwdt spi spips sysmon
-  tmrctr ttcps uartlite uartps wdtps xadcps)
-set(markervp_vendor_headers bram canps clk_wiz dmaps emacps sdps usbps vtc)
+  tmrctr ttcps uartlite uartps vtc wdtps xadcps)
+set(markervp_vendor_headers bram canps clk_wiz dmaps emacps sdps usbps)
 
 # The folder with the sources of DRIVER below FOLDER, in SOURCE; empty if there is none.
 function(_markervp_find_vendor_driver NAME FOLDER DRIVER SOURCE)
@@ -62,7 +62,7 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
     target_sources(${NAME} PRIVATE ${sources})
     string(TOUPPER "${driver}" upper)
     target_compile_definitions(${NAME} PRIVATE "MARKERVP_VENDOR_${upper}")
-    foreach(field SgLengthWidth FifosDepth)
+    foreach(field SgLengthWidth FifosDepth IntrId)
       file(GLOB headers "${source}/x*${driver}.h" "${source}/${driver}.h")
       list(GET headers 0 header)
       file(STRINGS "${header}" has REGEX "[ \t]${field};")

@@ -507,6 +507,27 @@ XAxiVdma_Config XAxiVdma_ConfigTable[] = {
 };
 #endif
 
+#ifdef MARKERVP_VENDOR_VTC
+#include <xvtc.h>
+#ifdef MARKERVP_HAS_VTC_INTRID
+#define LATER(n) INTERRUPT(XVTC, n),
+#else
+#define LATER(n)
+#endif
+#ifdef SDT
+#define MARKERVP_ROW(n) \
+  { .Name = NAME(XVTC, n), .BaseAddress = XPAR_XVTC_##n##_BASEADDR, LATER(n) }
+#else
+#define MARKERVP_ROW(n) \
+  { .DeviceId = XPAR_VTC_##n##_DEVICE_ID, .BaseAddress = XPAR_VTC_##n##_BASEADDR, }
+#endif
+#define MARKERVP_COUNT XPAR_XVTC_NUM_INSTANCES
+XVtc_Config XVtc_ConfigTable[] = {
+#include "MarkervpVendorRows.h"
+};
+#undef LATER
+#endif
+
 #ifdef MARKERVP_VENDOR_SYSMON
 #include <xsysmon.h>
 #ifdef SDT

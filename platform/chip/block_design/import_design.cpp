@@ -236,6 +236,7 @@ class Writer {
     if (part.kind == Kind::rtl) line("    rtl: build/" + part.target + ".so");
     write_parameters(module, part.kind == Kind::stub ? nullptr : rule);
     if (part.kind == Kind::stub) write_clocks(module);
+    if (part.kind == Kind::model) note_files(module);
     write_pins(module, part.kind == Kind::stub);
     write_buses(module);
     result_.parts.push_back(std::move(part));
@@ -293,6 +294,17 @@ class Writer {
     if (list.empty()) return;
     line("    parameters:");
     for (const auto& [name, value] : list) line("      " + yaml(name) + ": " + yaml(value));
+  }
+
+  /// Models that take files, or write them.
+  void note_files(const Module& module) {
+    const std::string setting = "`pl." + module.instance + ".frames_";
+    if (module.ip() == "v_vid_in_axi4s")
+      result_.notes.push_back(setting + "from` puts pictures of files at the video input of " +
+                              module.instance + ", in the place of what is wired there");
+    if (module.ip() == "v_axi4s_vid_out")
+      result_.notes.push_back(setting + "to` names a folder for the frames that " +
+                              module.instance + " sends");
   }
 
   /// Clocks that a stub would make, and something uses.

@@ -376,8 +376,10 @@ Placed place_part(const Placement& at) {
   if (rule->ip == "axi_dma") return place_dma(at);
   if (rule->ip == "axi_bram_ctrl") return place_bram_ctrl(at);
   if (rule->ip == "proc_sys_reset") return place_reset(at);
+  if (const Placer placer = stream_placer(at)) return placer(at);
   if (rule->ip.rfind("axis_", 0) == 0) return place_stream_buffer(at, rule->ip);
   if (const Placer placer = peripheral_placer(rule->ip)) return placer(at);
+  if (const Placer placer = video_placer(rule->ip)) return placer(at);
   return place_clock_manager(at);
 }
 

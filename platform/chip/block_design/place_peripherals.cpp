@@ -20,10 +20,6 @@ namespace platform::block_design {
 
 namespace {
 
-std::uint32_t word(const Placement& at, const std::string& name) {
-  return static_cast<std::uint32_t>(at.number(name));
-}
-
 const char* name_of(const Placement& at) {
   return at.part.name.c_str();
 }

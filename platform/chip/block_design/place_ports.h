@@ -39,6 +39,11 @@ inline vp::SignalBase* output(const Placement& at, const std::string& pin, vp::S
   return out;
 }
 
+/// A parameter that is a number of at most 32 bits.
+inline std::uint32_t word(const Placement& at, const std::string& name) {
+  return static_cast<std::uint32_t>(at.number(name));
+}
+
 /// The registers of a model as a slave.
 inline SlavePort registers(vp::RegisterBank& bank) {
   return {[&bank](RegionSocket& socket) { socket.bind(bank.socket); }};
@@ -61,6 +66,9 @@ inline MasterPort memory_master(xilinx::MemoryPort& port) {
 /// What places an IP that has registers and little else; null for any other IP.
 using Placer = Placed (*)(const Placement& at);
 Placer peripheral_placer(const std::string& ip);
+/// The same of IP of streams, which depends on its parameters, and of IP of video.
+Placer stream_placer(const Placement& at);
+Placer video_placer(const std::string& ip);
 
 /// The UART Lite whose `tx` drives the `rx` of this one; null: none does.
 const PlacedPart* serial_driver(const DesignFile& design, const PlacedPart& part);

@@ -235,15 +235,6 @@ std::vector<ParameterRule> converter_parameters() {
   return list;
 }
 
-/// Of a part that passes beats as they are: how wide they are, and what goes beside the bytes.
-std::vector<ParameterRule> stream_parameters(std::vector<ParameterRule> list) {
-  list.push_back({"TDATA_NUM_BYTES", "4", {}, 1, 128});
-  list.push_back({"HAS_TSTRB", "0", {"0", "1"}});
-  for (const char* name : {"TUSER_WIDTH", "TID_WIDTH", "TDEST_WIDTH"})
-    list.push_back({name, "0", {}, 0, 1024});
-  return list;
-}
-
 std::vector<IpRule> rules() {
   const std::vector<ParameterRule> logic{{"C_OPERATION", "and", {"and", "or", "xor", "not"}},
                                          {"C_SIZE", "8"}};
@@ -300,19 +291,6 @@ std::vector<IpRule> rules() {
        "AXI register slice (PG059): a way for addresses, with `read_latency` and `write_latency`"},
       {"axi_data_fifo", Kind::bus,
        "AXI data FIFO (PG059): a way for addresses, with `read_latency` and `write_latency`"},
-      {"axis_data_fifo", Kind::model, "AXI4-Stream FIFO, one clock (PG085)",
-       stream_parameters(
-           {{"FIFO_DEPTH", "512"}, {"FIFO_MODE", "1", {"1"}}, {"IS_ACLK_ASYNC", "0", {"0"}}})},
-      {"axis_register_slice", Kind::model, "AXI4-Stream register slice (PG085)",
-       stream_parameters({})},
-      {"axis_dwidth_converter",
-       Kind::model,
-       "AXI4-Stream width converter without TUSER, TID and TDEST (PG085)",
-       {{"S_TDATA_NUM_BYTES", "4", {}, 1, 128},
-        {"M_TDATA_NUM_BYTES", "4", {}, 1, 128},
-        {"TUSER_BITS_PER_BYTE", "0", {"0"}},
-        {"TID_WIDTH", "0", {"0"}},
-        {"TDEST_WIDTH", "0", {"0"}}}},
       {"xlconcat", Kind::wiring, "concat", concat_parameters()},
       {"ilconcat", Kind::wiring, "concat", concat_parameters()},
       {"xlslice", Kind::wiring, "slice", slice},
@@ -331,6 +309,8 @@ std::vector<IpRule> rules() {
       {"vio", Kind::left_out, "virtual pins of the debugger"},
       {"jtag_axi", Kind::left_out, "bus master of the debugger"},
       {"debug_bridge", Kind::left_out, "debugger"}};
+  for (IpRule& rule : stream_rules()) list.push_back(std::move(rule));
+  for (IpRule& rule : video_rules()) list.push_back(std::move(rule));
   for (const OwnIp& own : own_ips()) list.push_back(own.rule);
   std::sort(list.begin(), list.end(), [](const IpRule& a, const IpRule& b) { return a.ip < b.ip; });
   return list;

@@ -43,6 +43,10 @@ struct IpRule {
 /// All IP that the platform and its application (own_ip.h) know, by name.
 const std::vector<IpRule>& shelf();
 
+/// Parts of the shelf: the rules of IP of streams, and of video.
+std::vector<IpRule> stream_rules();
+std::vector<IpRule> video_rules();
+
 /// All of it as a table of Markdown: what each IP is here, and which values of its parameters are
 /// modelled where not all are.
 std::string shelf_table();

@@ -183,7 +183,8 @@ const Class* class_of(const PlDevice& device) {
       {"axi_timer", {"timer", "xlnx,xps-timer-1.00.a"}},
       {"axi_quad_spi",
        {"axi_quad_spi", "xlnx,xps-spi-2.00.a", {{"#address-cells", 1}, {"#size-cells", 0}}}},
-      {"axi_uartlite", {"serial", "xlnx,xps-uartlite-1.00.a"}}};
+      {"axi_uartlite", {"serial", "xlnx,xps-uartlite-1.00.a"}},
+      {"v_tc", {"v_tc", "xlnx,v-tc-6.1"}}};
   const auto found = device.is_vendors ? classes.find(device.ip) : classes.end();
   return found == classes.end() ? nullptr : &found->second;
 }

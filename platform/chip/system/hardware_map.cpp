@@ -125,6 +125,7 @@ std::string title(const sc_core::sc_object& object) {
       {"xilinx::AxiUartlite", "AXI UART Lite (PG142)"},
       {"xilinx::AxiVdma", "AXI VDMA (PG020)"},
       {"xilinx::ClkWiz", "Clocking wizard (PG065)"},
+      {"xilinx::VTc", "Video timing controller (PG016)"},
       {"xilinx::XadcWiz", "XADC wizard (PG091)"},
       {"ps::Gpio", "GPIO of the PS (MIO and EMIO)"},
       {"ps::I2c", "I2C"},

@@ -14,6 +14,7 @@
 #include <xilinx/axi_vdma/axi_vdma.h>
 #include <xilinx/clk_wiz/clk_wiz.h>
 #include <xilinx/register_stub/register_stub.h>
+#include <xilinx/v_tc/v_tc.h>
 #include <xilinx/xadc_wiz/xadc_wiz.h>
 
 namespace xparameters {
@@ -285,6 +286,9 @@ void add_build(Device& device, const sc_core::sc_object& module) {
   } else if (dynamic_cast<const xilinx::ClkWiz*>(&module)) {
     device.driver = "CLK_WIZ";
     device.compatible = "xlnx,clocking-wizard";
+  } else if (dynamic_cast<const xilinx::VTc*>(&module)) {
+    device.driver = "VTC";
+    device.compatible = "xlnx,v-tc-6.2";
   } else if (dynamic_cast<const xilinx::AxiBramCtrl*>(&module)) {
     add_bram(device);
   } else if (const auto* stub = dynamic_cast<const xilinx::RegisterStub*>(&module)) {

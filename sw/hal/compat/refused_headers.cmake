@@ -9,11 +9,11 @@ endfunction()
 
 set(copy "The device is modelled, but its driver is not part of markervp::compat. Name your copy of the vendor's drivers: \
 markervp_add_program(… VENDOR_BSP <libsrc of the board support package>)")
-foreach(driver axicdma iic intc llfifo qspips spi sysmon uartlite wdtps)
+foreach(driver axicdma iic intc llfifo qspips spi sysmon uartlite vtc wdtps)
   _refuse("${copy}" x${driver}.h)
 endforeach()
 _refuse("${copy}" xdevcfg.h xaxicdma_hw.h xiic_l.h xintc_l.h xllfifo_hw.h xqspips_hw.h xspi_l.h xsysmon_hw.h xuartlite_l.h
-  xwdtps_hw.h xdevcfg_hw.h)
+  xvtc_hw.h xwdtps_hw.h xdevcfg_hw.h)
 _refuse("There is no card in the platform's SDIO controllers. Leave the files out, or read them with fopen() from your \
 computer in this build" ff.h diskio.h xsdps.h)
 _refuse("There is no network at the platform's Ethernet controllers, and no lwIP in this board support package. Leave the \
@@ -21,6 +21,6 @@ connection out in this build, or put what arrives by it into memory" xemacps.h l
   lwip/opt.h lwip/sys.h lwip/mem.h lwip/pbuf.h lwip/tcp.h lwip/tcp_impl.h lwip/priv/tcp_priv.h lwip/udp.h lwip/dhcp.h lwip/inet.h
   lwip/netif.h lwip/sockets.h lwip/timers.h lwip/tcpip.h lwipopts.h netif/xadapter.h netif/xemacpsif.h netif/xtopology.h)
 _refuse("There is no transceiver at the platform's USB controllers. Leave USB out in this build" xusbps.h xusbps_hw.h xusbps_endpoint.h)
-_refuse("The device is not modelled: an access would end the program. Leave it out in this build" xcanps.h xwdttb.h xvtc.h
+_refuse("The device is not modelled: an access would end the program. Leave it out in this build" xcanps.h xwdttb.h
   xvprocss.h xv_tpg.h xi2s.h xaxiethernet.h xemaclite.h)
 _refuse("Name your copy of the kernel: markervp_add_program(… FREERTOS <FreeRTOS-Kernel>)" FreeRTOS.h)
