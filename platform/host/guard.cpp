@@ -6,7 +6,6 @@
 #include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +18,8 @@
 #include <sstream>
 #include <system_error>
 #include <vector>
+
+#include <vp/fault_trap.h>
 
 namespace platform::host {
 
@@ -42,9 +43,9 @@ class NoSignals {
   sigset_t before_;
 };
 
-// Not _exit(), which ends a PS program that runs (ps/cpu/fault_trap.cpp).
+// Not _exit(), which ends a PS program that runs.
 [[noreturn]] void leave() {
-  while (true) ::syscall(SYS_exit_group, 0);
+  vp::end_process(0);
 }
 
 void use_default_signals() {

@@ -55,7 +55,7 @@ struct Fault {
     interrupted,  ///< the user wants an end
   };
   Kind kind = Kind::none;
-  int signal = 0;         ///< SIGSEGV, SIGBUS, SIGILL, SIGFPE or SIGABRT
+  int signal = 0;         ///< SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT or SIGTRAP
   int code = 0;           ///< si_code; of an exit its status
   const char* call = "";  ///< the function that was called, of exit, forbidden and no_hal
   enum class Access { unknown, read, write, execute };
@@ -79,7 +79,7 @@ struct Fault {
 /// Runs foreign code; a fault in it ends that code, not the process. Nothing is unwound.
 ///
 /// Faults while ForeignCode::runs belong to it. Calls of exit() and its relatives are faults, too:
-/// see fault_trap.cpp. Several traps may run code by turns, each on a stack of its own, in one
+/// see process_calls.cpp. Several traps may run code by turns, each on a stack of its own, in one
 /// thread. The actions of the signals and the alternative stack of the thread are changed while any
 /// call() runs.
 ///
@@ -138,7 +138,7 @@ class FaultTrap {
   static bool (*on_access)(std::uintptr_t address, void* context);
 
  private:
-  static constexpr int signals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+  static constexpr int signals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP};
   static constexpr std::size_t signal_count = sizeof signals / sizeof signals[0];
 
   static void call_below(void (*code)(void* context), void* context);
@@ -184,5 +184,14 @@ class FaultTrap {
 
 /// Ends the process at once, without destructors and exit handlers. For signal handlers, too.
 [[noreturn]] void end_process(int code);
+
+/// raise() for the platform's own code: foreign code that is under way is not blamed for it. For
+/// signal handlers, too.
+void raise_again(int signal);
+
+/// syscall() of the C library, also while foreign code is under way. Sets errno. For signal
+/// handlers, too.
+long call_kernel(long number, long a = 0, long b = 0, long c = 0, long d = 0, long e = 0,
+                 long f = 0);
 
 }  // namespace vp
