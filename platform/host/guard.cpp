@@ -181,6 +181,7 @@ std::optional<Guard::Note> Guard::next_note(bool waits) {
   while ((count = ::recv(socket_, &note, sizeof note, waits ? 0 : MSG_DONTWAIT)) < 0 &&
          errno == EINTR)
     continue;
+  gone_ = gone_ || count == 0;
   if (count != static_cast<ssize_t>(sizeof note)) return std::nullopt;
   return note;
 }
