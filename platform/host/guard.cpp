@@ -19,7 +19,8 @@
 #include <system_error>
 #include <vector>
 
-#include <vp/fault_trap.h>
+#include <vp/error.h>
+#include <vp/kernel.h>
 
 namespace platform::host {
 
@@ -226,9 +227,26 @@ ScratchFolder::Made::Made(const fs::path& path)
   if (error != 0) throw std::system_error(error, std::generic_category());
 }
 
+namespace {
+
+[[noreturn]] void no_scratch_folder(const std::string& place, const std::error_code& reason) {
+  throw vp::HostError("no folder can be made for temporary files in '" + place + "' (" +
+                      reason.message() + "): let TMPDIR name one that takes files");
+}
+
+fs::path temporary_folder() {
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  const char* const chosen = std::getenv("TMPDIR");
+  if (error) no_scratch_folder(chosen ? chosen : "/tmp", error);
+  return folder;
+}
+
+}  // namespace
+
 ScratchFolder::ScratchFolder(const std::string& name) {
   constexpr int most_tries = 100;  // another folder may have the name
-  const fs::path folder = fs::temp_directory_path();
+  const fs::path folder = temporary_folder();
   std::random_device random;
   for (int i = 0; !guard_; ++i) {
     const std::uint64_t number = std::uint64_t{random()} << 32 | random();
@@ -239,7 +257,7 @@ ScratchFolder::ScratchFolder(const std::string& name) {
       guard_ = std::make_unique<Made>(path_);
     } catch (const std::system_error& error) {
       if (error.code() == std::errc::file_exists && i < most_tries) continue;
-      throw fs::filesystem_error("no temporary folder", folder, error.code());
+      no_scratch_folder(folder.string(), error.code());
     }
   }
 }

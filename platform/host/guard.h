@@ -82,8 +82,8 @@ class ScratchLink : private Guard {
 /// A new folder for temporary files, in $TMPDIR. It outlives neither this object nor this process.
 class ScratchFolder {
  public:
-  /// "markervp-NAME-" and a number. Throws std::filesystem::filesystem_error if the host has no
-  /// room.
+  /// "markervp-NAME-" and a number. Throws vp::HostError, which names the place, if none can be
+  /// made.
   explicit ScratchFolder(const std::string& name);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;

@@ -12,8 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vp/error.h>
-#include <vp/fault_trap.h>
 #include <vp/file.h>
+#include <vp/kernel.h>
 #include <vp/text.h>
 
 #include <algorithm>

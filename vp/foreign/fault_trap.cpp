@@ -9,6 +9,7 @@
 #include <vp/fault_trap.h>
 #include <vp/file.h>
 #include <vp/foreign_object.h>
+#include <vp/kernel.h>
 #include <vp/own_stack.h>
 #include <vp/text.h>
 #include <atomic>

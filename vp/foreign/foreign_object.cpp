@@ -23,6 +23,7 @@
 
 #include <vp/file.h>
 #include <vp/host_ticks.h>
+#include <vp/kernel.h>
 
 namespace vp {
 

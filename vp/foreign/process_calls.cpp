@@ -11,12 +11,12 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
 #include <cstdarg>
 #include <cstdlib>
 
 #include <vp/fault_trap.h>
+#include <vp/kernel.h>
 
 namespace {
 
@@ -43,14 +43,6 @@ void forbid(const char* name) {
 pid_t fork_by(const char* name) {
   forbid(name);
   return the_real<pid_t()>("fork")();
-}
-
-using Kernel = long(long, long, long, long, long, long, long);
-
-/// Asked for when the executable is loaded: signal handlers cannot ask the loader.
-Kernel* real_syscall = nullptr;
-__attribute__((constructor)) void find_syscall() {
-  real_syscall = the_real<Kernel>("syscall");
 }
 
 /// What the functions below do.
@@ -100,20 +92,6 @@ using ExecuteWith = int(const char*, char* const*, char* const*);
 
 void vp::run_exit_handlers(int code) {
   end("exit", code);
-}
-
-// Without a look at the loader's tables: it is called in signal handlers.
-void vp::end_process(int code) {
-  while (true) call_kernel(SYS_exit_group, code);
-}
-
-void vp::raise_again(int signal) {
-  call_kernel(SYS_tgkill, ::getpid(), ::gettid(), signal);
-}
-
-long vp::call_kernel(long number, long a, long b, long c, long d, long e, long f) {
-  if (!real_syscall) find_syscall();
-  return real_syscall(number, a, b, c, d, e, f);
 }
 
 extern "C" {

@@ -8,7 +8,7 @@
 #include <sys/mman.h>
 #include <ucontext.h>
 #include <unistd.h>
-#include <vp/fault_trap.h>
+#include <vp/kernel.h>
 
 #include <ps/cpu/program_watch.h>
 

@@ -3,7 +3,7 @@
 #include <ps/cpu/line_guard.h>
 
 #include <chip/system/hardware_map.h>
-#include <vp/fault_trap.h>
+#include <vp/kernel.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <csignal>

@@ -14,7 +14,7 @@
 #include <sys/socket.h>
 #include <vp/axi_stream.h>
 #include <vp/expression.h>
-#include <vp/fault_trap.h>
+#include <vp/kernel.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 

@@ -182,16 +182,4 @@ class FaultTrap {
 /// exit() of the C library, also while ForeignCode::runs.
 [[noreturn]] void run_exit_handlers(int code);
 
-/// Ends the process at once, without destructors and exit handlers. For signal handlers, too.
-[[noreturn]] void end_process(int code);
-
-/// raise() for the platform's own code: foreign code that is under way is not blamed for it. For
-/// signal handlers, too.
-void raise_again(int signal);
-
-/// syscall() of the C library, also while foreign code is under way. Sets errno. For signal
-/// handlers, too.
-long call_kernel(long number, long a = 0, long b = 0, long c = 0, long d = 0, long e = 0,
-                 long f = 0);
-
 }  // namespace vp
