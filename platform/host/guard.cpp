@@ -236,7 +236,7 @@ namespace {
 
 fs::path temporary_folder() {
   std::error_code error;
-  const fs::path folder = fs::temp_directory_path(error);
+  fs::path folder = fs::temp_directory_path(error);
   const char* const chosen = std::getenv("TMPDIR");
   if (error) no_scratch_folder(chosen ? chosen : "/tmp", error);
   return folder;
