@@ -81,7 +81,7 @@ function(markervp_add_rtl NAME)
   endif()
   markervp_rtl_glue(${NAME} "${folder}" "${generics}")
   # The glue has these functions (MarkervpRtl.cpp.in).
-  target_compile_definitions(${NAME} PRIVATE VL_USER_FINISH VL_USER_STOP VL_USER_FATAL VL_PRINTF=markervp_rtl_print)
+  target_compile_definitions(${NAME} PRIVATE VL_USER_FINISH VL_USER_STOP VL_USER_FATAL VL_USER_WARN VL_PRINTF=markervp_rtl_print)
   target_compile_options(${NAME} PRIVATE -include pl/common/rtl_interface.h)
   target_compile_options(${NAME} PRIVATE $<IF:$<CONFIG:Debug>,-O0,-O3> -w)
   set_target_properties(${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0

@@ -6,7 +6,6 @@
 #include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +18,9 @@
 #include <sstream>
 #include <system_error>
 #include <vector>
+
+#include <vp/error.h>
+#include <vp/kernel.h>
 
 namespace platform::host {
 
@@ -42,9 +44,9 @@ class NoSignals {
   sigset_t before_;
 };
 
-// Not _exit(), which ends a PS program that runs (ps/cpu/fault_trap.cpp).
+// Not _exit(), which ends a PS program that runs.
 [[noreturn]] void leave() {
-  while (true) ::syscall(SYS_exit_group, 0);
+  vp::end_process(0);
 }
 
 void use_default_signals() {
@@ -180,6 +182,7 @@ std::optional<Guard::Note> Guard::next_note(bool waits) {
   while ((count = ::recv(socket_, &note, sizeof note, waits ? 0 : MSG_DONTWAIT)) < 0 &&
          errno == EINTR)
     continue;
+  gone_ = gone_ || count == 0;
   if (count != static_cast<ssize_t>(sizeof note)) return std::nullopt;
   return note;
 }
@@ -224,9 +227,26 @@ ScratchFolder::Made::Made(const fs::path& path)
   if (error != 0) throw std::system_error(error, std::generic_category());
 }
 
+namespace {
+
+[[noreturn]] void no_scratch_folder(const std::string& place, const std::error_code& reason) {
+  throw vp::HostError("no folder can be made for temporary files in '" + place + "' (" +
+                      reason.message() + "): let TMPDIR name one that takes files");
+}
+
+fs::path temporary_folder() {
+  std::error_code error;
+  fs::path folder = fs::temp_directory_path(error);
+  const char* const chosen = std::getenv("TMPDIR");
+  if (error) no_scratch_folder(chosen ? chosen : "/tmp", error);
+  return folder;
+}
+
+}  // namespace
+
 ScratchFolder::ScratchFolder(const std::string& name) {
   constexpr int most_tries = 100;  // another folder may have the name
-  const fs::path folder = fs::temp_directory_path();
+  const fs::path folder = temporary_folder();
   std::random_device random;
   for (int i = 0; !guard_; ++i) {
     const std::uint64_t number = std::uint64_t{random()} << 32 | random();
@@ -237,7 +257,7 @@ ScratchFolder::ScratchFolder(const std::string& name) {
       guard_ = std::make_unique<Made>(path_);
     } catch (const std::system_error& error) {
       if (error.code() == std::errc::file_exists && i < most_tries) continue;
-      throw fs::filesystem_error("no temporary folder", folder, error.code());
+      no_scratch_folder(folder.string(), error.code());
     }
   }
 }

@@ -33,6 +33,8 @@ class Guard {
  protected:
   /// The next one; none: there is none yet, or, when it `waits`, the guard is gone.
   std::optional<Note> next_note(bool waits);
+  /// The guard was ended from outside, as next_note() has seen.
+  bool gone() const { return gone_; }
   /// The process that waits: the ancestor of all that the command starts.
   pid_t process() const { return process_; }
 
@@ -41,6 +43,7 @@ class Guard {
 
   pid_t process_ = 0;
   int socket_ = -1;
+  bool gone_ = false;
 };
 
 /// A command of the host and all that it starts, sessions of their own included. Nothing of it
@@ -59,6 +62,9 @@ class ProcessTree : private Guard {
   /// A process that ended whose parent did not wait for it: first(), and those whose parent ended
   /// before. It is noted before its number is free. None: none has ended since the last call.
   std::optional<End> next_end() { return next_note(false); }
+  /// root() was ended from outside, as next_end() has seen: no more ends are noted, and what the
+  /// command started has no guard.
+  bool lost() const { return gone(); }
   /// The status of first(), after its end.
   int wait();
 
@@ -76,8 +82,8 @@ class ScratchLink : private Guard {
 /// A new folder for temporary files, in $TMPDIR. It outlives neither this object nor this process.
 class ScratchFolder {
  public:
-  /// "markervp-NAME-" and a number. Throws std::filesystem::filesystem_error if the host has no
-  /// room.
+  /// "markervp-NAME-" and a number. Throws vp::HostError, which names the place, if none can be
+  /// made.
   explicit ScratchFolder(const std::string& name);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;

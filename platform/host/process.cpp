@@ -13,6 +13,7 @@
 #include <unistd.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/kernel.h>
 #include <vp/text.h>
 
 #include <algorithm>
@@ -58,7 +59,7 @@ void end_as_the_system_does(int signal) {
   sigemptyset(&set);
   sigaddset(&set, signal);
   ::sigprocmask(SIG_UNBLOCK, &set, nullptr);
-  ::raise(signal);
+  vp::raise_again(signal);
 }
 
 /// Of the second that a run has after a signal, for the frame at hand. The rest is for its
@@ -129,13 +130,13 @@ void prepare_signals() {
 }
 
 // Nothing but system calls, as it comes from a signal handler. Not _exit(), which ends a PS
-// program that runs (vp/foreign/fault_trap.cpp).
+// program that runs (vp/foreign/process_calls.cpp).
 void end_by(int signal) {
   vp::remove_part_files();
   if (signal == SIGQUIT) end_as_the_system_does(signal);
   constexpr std::string_view text = "markervp: interrupted\n";
   static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
-  while (true) ::syscall(SYS_exit_group, interrupted);
+  vp::end_process(interrupted);
 }
 
 InterruptGuard::InterruptGuard(std::function<void()> interrupt)

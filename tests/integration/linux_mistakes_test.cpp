@@ -208,6 +208,13 @@ BOOST_AUTO_TEST_CASE(a_static_one) {
   refuses({"--linux", file}, {"is linked statically", "without -static"});
 }
 
+BOOST_AUTO_TEST_CASE(a_truncated_one) {
+  const std::string whole = MARKERVP_APPLICATIONS "mistakes", file = *this / "part";
+  kit::write_part(whole, file, std::filesystem::file_size(whole) / 2);
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  refuses({"--linux", file}, {"is truncated: build or copy it again"});
+}
+
 /// The executable finds the shim beside its own file.
 BOOST_AUTO_TEST_CASE(where_no_shim_is_to_be_had) {
   namespace fs = std::filesystem;

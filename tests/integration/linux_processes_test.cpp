@@ -107,6 +107,15 @@ BOOST_AUTO_TEST_CASE(a_killed_run_leaves_nothing) {
   }
 }
 
+// Neither says where it is.
+BOOST_AUTO_TEST_CASE(what_is_stopped_or_without_its_guard_ends_the_run) {
+  ends(3, "stops_itself", {"the application is stopped, by SIGSTOP", "send it SIGCONT"},
+       {"--set", "ps.cpu.host_timeout=2 s"});
+  BOOST_TEST(none_is_left("processes"));
+  ends(3, "kills_its_parent", {"between markervp and the application", "was ended from outside"});
+  BOOST_TEST(none_is_left("processes"));
+}
+
 BOOST_AUTO_TEST_CASE(what_the_shim_needs_stays_open) {
   works("closes_all");
   works("takes_numbers");

@@ -60,6 +60,7 @@ BOOST_FIXTURE_TEST_SUITE(objects, Objects)
 
 BOOST_AUTO_TEST_CASE(rtl_that_behaves) {
   BOOST_TEST(run("").exit_code == 0);
+  BOOST_TEST(run("eval:harmless").exit_code == 0);
 }
 
 BOOST_AUTO_TEST_CASE(files_that_are_no_objects) {
@@ -98,6 +99,8 @@ BOOST_AUTO_TEST_CASE(constructors_and_descriptions) {
            {"exit", "it called exit(0)"},
            {"_exit", "it called _exit(0)"},
            {"abort", "it called abort()"},
+           {"execl", "it called execl()"},
+           {"overflow", "stack overflow"},
            {"fault", "segmentation fault: write to 0x00000000"}}) {
     BOOST_TEST_CONTEXT(way) {
       check_ended(run("constructor:" + way), {name, problem, where});
@@ -126,6 +129,15 @@ BOOST_AUTO_TEST_CASE(evaluations_that_end_or_damage_the_process) {
   ends("division", {name, "arithmetic trap", moment});
   ends("illegal", {name, "illegal instruction", moment});
   ends("fork", {name, "it called fork()", moment});
+  ends("overflow", {name, "stack overflow", moment});
+#if defined(__x86_64__)
+  ends("breakpoint", {name, "breakpoint instruction", moment});
+#endif
+  ends("kill", {name, "it called kill()", moment});
+  ends("raise", {name, "it called raise()", moment});
+  ends("execl", {name, "it called execl()", moment});
+  ends("execve", {name, "it called execve()", moment});
+  ends("syscall", {name, "it called syscall()", moment});
   ends("error", {"no more"});
   ends("throw", {});
 }

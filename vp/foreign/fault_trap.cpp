@@ -9,6 +9,7 @@
 #include <vp/fault_trap.h>
 #include <vp/file.h>
 #include <vp/foreign_object.h>
+#include <vp/kernel.h>
 #include <vp/own_stack.h>
 #include <vp/text.h>
 #include <atomic>
@@ -66,6 +67,32 @@ std::uintptr_t caller_of_nothing(const void* context) {
 #endif
 }
 
+/// Whether a page can be read, without a fault: of two bad arguments the kernel names the set's
+/// place first.
+bool is_readable(std::uintptr_t address) {
+  constexpr int no_operation = ~0;
+  constexpr std::size_t set_bytes = 8;
+  call_kernel(SYS_rt_sigprocmask, no_operation, static_cast<long>(address & ~std::uintptr_t{7}), 0,
+              static_cast<long>(set_bytes));
+  return errno != EFAULT;
+}
+
+/// The stack that the code is on has no room left: that of a SystemC thread, a thread of its own, …
+bool is_beyond_stack(const void* context, std::uintptr_t address) {
+#if defined(__x86_64__)
+  // Below its stack pointer a function uses 128 bytes; above it, its variables.
+  constexpr std::uintptr_t below = 256;
+  const auto top = static_cast<std::uintptr_t>(
+      static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RSP]);
+  if (address < top - below || address > top + overflow_range) return false;
+  return address < top || !is_readable(top);
+#else
+  static_cast<void>(context);
+  static_cast<void>(address);
+  return false;
+#endif
+}
+
 const char* arithmetic_text(int code) {
   switch (code) {
     case FPE_INTDIV:
@@ -105,6 +132,7 @@ std::string Fault::text(const std::string& who) const {
   }
   if (signal == SIGABRT) return who + " called abort()";
   if (signal == SIGILL) return "illegal instruction";
+  if (signal == SIGTRAP) return "breakpoint instruction";
   if (signal == SIGFPE) return std::string("arithmetic trap: ") + arithmetic_text(code);
   if (stack_overflow) return "stack overflow";
   std::string text = "segmentation fault";
@@ -232,8 +260,12 @@ void FaultTrap::arm() {
   action.sa_sigaction = &FaultTrap::on_signal;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
   sigemptyset(&action.sa_mask);
-  for (std::size_t i = 0; i < signal_count; ++i)
-    sigaction(signals[i], &action, &changed_.old_actions[i]);
+  for (std::size_t i = 0; i < signal_count; ++i) {
+    sigaction(signals[i], nullptr, &changed_.old_actions[i]);
+    // Another owner steps through the program with it, and gives back what is not its own.
+    if (signals[i] == SIGTRAP && changed_.old_actions[i].sa_handler != SIG_DFL) continue;
+    sigaction(signals[i], &action, nullptr);
+  }
   changed_.old_terminate = std::set_terminate(&FaultTrap::on_terminate);
   changed_.thread = pthread_self();
   static const int registered = std::atexit(&FaultTrap::on_exit);
@@ -277,7 +309,7 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
     if (objects_ && !by_code && !by_others) end_if_damaged();
 #endif
     give_back(signal);
-    if (sent) raise(signal);
+    if (sent) raise_again(signal);
   };
   if (!trap || trap->landed_ || by_others) return give_back_now();
   Fault noted;  // in a thread of its own
@@ -292,8 +324,8 @@ void FaultTrap::on_signal(int signal, siginfo_t* info, void* context) {
   fault.access = access_of(signal, context);
   fault.address = address;
   fault.address_known = info->si_code > 0 && info->si_code != SI_KERNEL;
-  fault.stack_overflow = signal != SIGILL && signal != SIGFPE && signal != SIGABRT &&
-                         fault.address_known && trap->is_stack_overflow(fault.address);
+  fault.stack_overflow = (signal == SIGSEGV || signal == SIGBUS) && fault.address_known &&
+                         (trap->is_stack_overflow(address) || is_beyond_stack(context, address));
   fault.add_frame(instruction_of(context));
   if (fault.access == Fault::Access::execute) fault.add_frame(caller_of_nothing(context) - 1);
   fault.add_callers();
@@ -401,82 +433,4 @@ void FaultTrap::on_exit() {
   end_process(protocol_broken);
 }
 
-// Without a look at the loader's tables: it is called in signal handlers.
-void end_process(int code) {
-  while (true) ::syscall(SYS_exit_group, code);
-}
-
 }  // namespace vp
-
-// Calls of the C library that would end the whole process, or double it. Foreign code that makes
-// one is ended as by a fault; for everybody else they are what they always are.
-//
-// Defined here rather than wrapped when a program is linked: the loader looks into the executable
-// first, so it holds for whatever a program consists of. What the C library calls inside itself
-// (err(), daemon()) does not come here, and neither do raw system calls and the exec() family.
-namespace {
-
-/// The function of that name which the loader would have found without this file.
-template <class Function>
-Function* the_real(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
-}
-
-template <class... Argument>
-[[noreturn]] void end(const char* name, Argument... argument) {
-  static_cast<void>((the_real<void(Argument...)>(name)(argument...), 0));
-  std::abort();
-}
-
-void leave_program(const char* name, int code) {
-  vp::FaultTrap::leave_if_foreign(vp::Fault::Kind::exit, name, code);
-}
-
-pid_t fork_by(const char* name) {
-  vp::FaultTrap::leave_if_foreign(vp::Fault::Kind::forbidden, name);
-  return the_real<pid_t()>("fork")();
-}
-
-}  // namespace
-
-void vp::run_exit_handlers(int code) {
-  end("exit", code);
-}
-
-extern "C" {
-
-void exit(int code) noexcept {
-  leave_program("exit", code);
-  end("exit", code);
-}
-
-void _exit(int code) {
-  leave_program("_exit", code);
-  vp::end_process(code);
-}
-
-void _Exit(int code) noexcept {
-  leave_program("_Exit", code);
-  vp::end_process(code);
-}
-
-void quick_exit(int code) noexcept {
-  leave_program("quick_exit", code);
-  end("quick_exit", code);
-}
-
-pid_t fork(void) noexcept {
-  return fork_by("fork");
-}
-
-// A child that shares its parent's stack cannot pass through here: it gets a stack of its own.
-pid_t vfork(void) noexcept {
-  return fork_by("vfork");
-}
-
-void pthread_exit(void* value) {
-  vp::FaultTrap::leave_if_foreign(vp::Fault::Kind::forbidden, "pthread_exit");
-  end("pthread_exit", value);
-}
-
-}  // extern "C"

@@ -23,6 +23,7 @@
 
 #include <vp/file.h>
 #include <vp/host_ticks.h>
+#include <vp/kernel.h>
 
 namespace vp {
 
@@ -81,27 +82,14 @@ std::string problem_of_machine(const ObjectKind& kind, const Elf64_Ehdr& header)
          "; build it for this one, " + machine_name(own->e_machine) + ", with " + kind.build;
 }
 
-/// The loader maps a file as its headers say; touching what a truncated one lacks is a bus error
-/// (SIGBUS), and what lacks its sections tells too little of itself. What is no ELF file at all is
-/// left to the loader's own message.
+/// What is no ELF file at all is left to the loader's own message.
 std::string problem_of_file(const ObjectKind& kind, const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file.tellg();
-  const auto found = elf_header(file);
-  if (!found) return {};
-  const Elf64_Ehdr& header = *found;
-  std::string other_machine = problem_of_machine(kind, header);
+  std::ifstream file(path, std::ios::binary);
+  const auto header = elf_header(file);
+  if (!header) return {};
+  std::string other_machine = problem_of_machine(kind, *header);
   if (!other_machine.empty()) return other_machine;
-  std::uint64_t end =
-      std::max(header.e_phoff, header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize);
-  for (unsigned i = 0; i < header.e_phnum; ++i) {
-    Elf64_Phdr segment{};
-    file.seekg(static_cast<std::streamoff>(header.e_phoff + i * sizeof segment));
-    if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment)) break;
-    if (segment.p_type == PT_LOAD) end = std::max(end, segment.p_offset + segment.p_filesz);
-  }
-  if (file && static_cast<std::uint64_t>(size) >= end) return {};
-  return "the file is truncated: build or copy it again";
+  return is_truncated_object(path) ? "the file is truncated: build or copy it again" : "";
 }
 
 /// Throws for what the loader would wait for.
@@ -234,6 +222,22 @@ void catch_all(void* context) {
 }
 
 }  // namespace
+
+bool is_truncated_object(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  const auto header = elf_header(file);
+  if (!header) return false;
+  std::uint64_t end = std::max(
+      header->e_phoff, header->e_shoff + std::uint64_t{header->e_shnum} * header->e_shentsize);
+  for (unsigned i = 0; i < header->e_phnum; ++i) {
+    Elf64_Phdr segment{};
+    file.seekg(static_cast<std::streamoff>(header->e_phoff + i * sizeof segment));
+    if (!file.read(reinterpret_cast<char*>(&segment), sizeof segment)) break;
+    if (segment.p_type == PT_LOAD) end = std::max(end, segment.p_offset + segment.p_filesz);
+  }
+  return !file || static_cast<std::uint64_t>(size) < end;
+}
 
 std::string stopped_by(const std::function<void()>& code) {
   Call call{code, {}};

@@ -8,6 +8,7 @@
 #include <sys/mman.h>
 #include <ucontext.h>
 #include <unistd.h>
+#include <vp/kernel.h>
 
 #include <ps/cpu/program_watch.h>
 
@@ -252,7 +253,7 @@ void LineGuard::on_trap(int signal, siginfo_t*, void* context) {
   if (active_ && active_->trap_is_set_) return active_->end_step(context);
   // Not ours: raise it again for the previous handler.
   sigaction(signal, active_ ? &active_->old_trap_ : nullptr, nullptr);
-  raise(signal);
+  vp::raise_again(signal);
 }
 
 }  // namespace ps

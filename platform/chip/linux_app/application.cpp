@@ -25,6 +25,7 @@
 #include <host/process.h>
 #include <vp/error.h>
 #include <vp/file.h>
+#include <vp/foreign_object.h>
 #include <vp/host_ticks.h>
 
 namespace platform {
@@ -123,6 +124,7 @@ std::string problem_of(const std::string& path) {
            "its first argument";
   std::string machine = machine_problem(header);
   if (!machine.empty()) return machine;
+  if (vp::is_truncated_object(path)) return "is truncated: build or copy it again";
   const std::string loader = loader_of(file, header);
   if (loader.empty())
     return "is linked statically, and nothing loads the shim into it: link it without -static";
@@ -322,11 +324,31 @@ void LinuxApplication::look_for_end() {
   const bool user_has_gone = ::kill(user_, 0) != 0 && errno == ESRCH;
   while (const std::optional<host::ProcessTree::End> end = tree_->next_end())
     ends_[end->process] = end->status;
+  if (tree_->lost() && !failure_) return note_loss();
   if (!silent_ || ends_.count(process_) == 0 || !user_has_gone) return;
   print_output();
   const bool by_copy = ends_[process_] == 0 && ends_.count(user_) != 0;
   ended_ = by_copy ? user_ : process_;
   status_ = ends_[ended_];
+}
+
+// The application and what it started are in a group of their own, with the exception of sessions.
+void LinuxApplication::note_loss() {
+  ::kill(-process_, SIGKILL);
+  failure_.emplace();
+  failure_->request.what = What::failure;
+  failure_->text =
+      "the process between markervp and the application, which notes its end, was ended from "
+      "outside: let the application send signals to none but its own processes, and leave enough "
+      "memory";
+}
+
+bool LinuxApplication::is_stopped() const {
+  std::ifstream file("/proc/" + std::to_string(user_) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const std::size_t state = text.rfind(") ");
+  return state != std::string::npos && text.compare(state + 2, 1, "T") == 0;
 }
 
 void LinuxApplication::answer(const linux_app::Reply& reply) {
@@ -351,10 +373,10 @@ std::string LinuxApplication::end_for_time() {
   // It reads debug information, on a computer that may be busy. Ticks interrupt receive().
   constexpr std::chrono::minutes longest_answer{1};
   look_for_end();
-  if (ends_.count(user_) != 0) return {};
+  if (ends_.count(user_) != 0 || is_stopped()) return {};
   ::kill(user_, linux_app::out_of_time);
   const auto end = std::chrono::steady_clock::now() + longest_answer;
-  while (!silent_ && std::chrono::steady_clock::now() < end) {
+  while (!silent_ && !host::InterruptGuard::noted() && std::chrono::steady_clock::now() < end) {
     const std::optional<Asked> asked = receive();
     if (!asked || asked->request.what != What::died) continue;
     note_death(*asked);

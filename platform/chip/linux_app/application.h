@@ -55,6 +55,8 @@ class LinuxApplication {
   /// The process that was started has ended, and a copy of it runs.
   bool left_copy() const { return !ended() && ends_.count(process_) != 0; }
   void answer(const linux_app::Reply& reply);
+  /// It does not run, and continues when it gets SIGCONT.
+  bool is_stopped() const;
   /// Asks where it is, while it waits for an answer; "" if it does not say.
   std::string place();
 
@@ -80,6 +82,7 @@ class LinuxApplication {
   std::optional<Asked> receive();
   void look_for_end();
   void note_death(const Asked& asked);
+  void note_loss();
 
   LinuxOptions options_;
   std::string name_, path_, shim_;
@@ -92,8 +95,9 @@ class LinuxApplication {
   std::map<pid_t, int> ends_;
   std::optional<int> status_;
   std::map<pid_t, Death> deaths_;
-  pid_t ended_ = 0;               ///< whose status it is
-  std::optional<Asked> failure_;  ///< of another thread, while this one was asked where it is
+  pid_t ended_ = 0;  ///< whose status it is
+  /// Of another thread, while this one was asked where it is; or the guard is lost.
+  std::optional<Asked> failure_;
 };
 
 }  // namespace platform

@@ -102,6 +102,10 @@ int LinuxRun::serve_to_end() {
         place_ = application_.end_for_time();
       });
     }
+    if (ps::ProgramWatch::stop == Stop::host_time && application_.is_stopped())
+      fail(
+          "the application is stopped, by SIGSTOP or as it reads a terminal, and no process lets "
+          "it continue: send it SIGCONT, or leave the stop out");
     if (ps::ProgramWatch::stop == Stop::host_time && application_.left_copy())
       fail(
           "the application's process has ended, and a copy of it that fork() made runs on and "

@@ -3,6 +3,7 @@
 #include <ps/cpu/line_guard.h>
 
 #include <chip/system/hardware_map.h>
+#include <vp/kernel.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <csignal>
@@ -102,7 +103,7 @@ int markervp_is_program(const void* address) {
 
 __attribute__((noinline)) void markervp_stop() {
   static bool waits = true;
-  if (std::exchange(waits, false)) std::raise(SIGSTOP);
+  if (std::exchange(waits, false)) vp::raise_again(SIGSTOP);
 }
 
 }  // extern "C"

@@ -14,6 +14,7 @@
 #include <sys/socket.h>
 #include <vp/axi_stream.h>
 #include <vp/expression.h>
+#include <vp/kernel.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
@@ -152,7 +153,7 @@ void RemoteControl::on_host_tick(std::uint64_t spent_ns, void*) {
   if (::poll(&test, 1, 0) <= 0) return;
   const bool is_due = alone_ns_ < patience_ns;
   alone_ns_ += spent_ns;
-  if (is_due && alone_ns_ >= patience_ns) std::raise(SIGTERM);
+  if (is_due && alone_ns_ >= patience_ns) vp::raise_again(SIGTERM);
 }
 
 void RemoteControl::printed(const std::string& line) {

@@ -166,12 +166,28 @@ std::string elaboration_of(const Design& design) {
   return command;
 }
 
+namespace {
+
+/// A tool without room for its files ends as if it had written them.
+void require_room(const fs::path& folder, const std::string& tool) {
+  constexpr std::uintmax_t least = 4096;
+  std::error_code error;
+  const fs::space_info room = fs::space(folder, error);
+  if (error || room.available >= least) return;
+  throw vp::HostError("no room is left in '" + folder.parent_path().string() + "' for what " +
+                      tool + " writes: make room, or let TMPDIR name another folder");
+}
+
+}  // namespace
+
 host::CommandEnd run_in(const fs::path& folder, const std::vector<std::string>& command,
                         unsigned seconds) {
   std::vector<std::string> words{"env", "--chdir=" + folder.string()};
   if (seconds > 0) words.insert(words.end(), {"prlimit", "--cpu=" + std::to_string(seconds)});
   words.insert(words.end(), command.begin(), command.end());
-  return host::run_command(words, ".");
+  host::CommandEnd end = host::run_command(words, ".");
+  require_room(folder, command.front());
+  return end;
 }
 
 YosysFolder::YosysFolder(const Design& design)

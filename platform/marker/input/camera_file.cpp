@@ -124,7 +124,7 @@ bool looks_like_distortion(const CalibrationEntry& entry) {
                                  "k6",  "p1",   "p2",   "s1",   "s2",    "s3",  "s4",
                                  "tau", "taux", "tauy", "k1k2", "alpha", "beta"};
   if (is_name(name, short_names)) return true;
-  for (const char* part : {"distort", "fisheye", "radial", "tangential", "coef"})
+  for (const char* part : {"distort", "fisheye", "radial", "tangential", "coef", "prism"})
     if (contains(all, part)) return true;
   for (std::size_t at = all.find("dist"); at != std::string::npos; at = all.find("dist", at + 1))
     if (all.compare(at, 8, "distance") != 0) return true;

@@ -234,6 +234,8 @@ std::optional<std::size_t> header_number(const Bytes& bytes, std::size_t& at) {
   return value;
 }
 
+constexpr std::size_t most_of_8_bits = 255, most_of_16_bits = 65535;
+
 /// What it says; its pixels may be cut.
 ImageHeader pgm_header(const Bytes& bytes, const std::string& path) {
   std::size_t at = 2;
@@ -248,9 +250,23 @@ ImageHeader pgm_header(const Bytes& bytes, const std::string& path) {
   header.width = static_cast<int>(*width);
   header.height = static_cast<int>(*height);
   header.pixel_offset = at + 1;
-  header.plain_grey = *maximum == 255;
-  header.bytes = header.pixel_offset + *width * *height * (*maximum > 255 ? 2 : 1);
+  if (*maximum == 0 || *maximum > most_of_16_bits)
+    refuse_image(path, "says that its brightest sample is " + std::to_string(*maximum) +
+                           ": it must be 1 to 65535");
+  header.maximum = *maximum;
+  header.plain_grey = *maximum == most_of_8_bits;
+  header.bytes = header.pixel_offset + *width * *height * (*maximum > most_of_8_bits ? 2 : 1);
   return header;
+}
+
+/// The codec takes other samples for grey levels as they are: 1023 of 10 bits, the white, for 3.
+void check_text_or_colour(const Bytes& bytes, const std::string& path) {
+  const bool has_maximum = bytes[1] == '2' || bytes[1] == '3' || bytes[1] == '6';
+  if (bytes[0] != 'P' || !has_maximum) return;
+  const std::size_t maximum = pgm_header(bytes, path).maximum;
+  if (maximum == most_of_8_bits || maximum == most_of_16_bits) return;
+  refuse_image(path, "says that its brightest sample is " + std::to_string(maximum) +
+                         ": save it with 255 or 65535, or as binary PGM (P5), which may have any");
 }
 
 ImageHeader check_pgm(const Bytes& bytes, const std::string& path) {
@@ -313,6 +329,7 @@ ImageHeader check_image(const Bytes& bytes, const std::string& path) {
       return header;
     case ImageHeader::Format::other:
       if (const std::string kind = unread_kind(bytes); !kind.empty()) refuse_image(path, kind);
+      check_text_or_colour(bytes, path);
       return header;
   }
   check_sides(header, path);
@@ -395,11 +412,27 @@ GreyImage plain_pgm(const std::vector<std::uint8_t>& bytes, const ImageHeader& h
   return image;
 }
 
+/// Samples as shares of the brightest one. A sample above it: damaged.
+Decoded<GreyImage> scaled_pgm(const std::vector<std::uint8_t>& bytes, const ImageHeader& header) {
+  GreyImage image{header.width, header.height, {}};
+  const std::size_t sample_bytes = header.maximum > most_of_8_bits ? 2 : 1;
+  for (std::size_t at = header.pixel_offset; at < header.bytes; at += sample_bytes) {
+    const std::size_t sample = big_endian(bytes, at, sample_bytes);
+    if (sample > header.maximum) return Unreadable::damaged;
+    image.pixels.push_back(
+        static_cast<std::uint8_t>((sample * most_of_8_bits + header.maximum / 2) / header.maximum));
+  }
+  return image;
+}
+
 Decoded<GreyImage> decode(const std::vector<std::uint8_t>& bytes, const ImageHeader& header) {
+  const bool is_pgm = header.format == ImageHeader::Format::pgm;
+  if (is_pgm && header.maximum != most_of_8_bits && header.maximum != most_of_16_bits)
+    return scaled_pgm(bytes, header);
   if (!header.plain_grey || header.may_be_turned)
     return media().decode_image(bytes,
                                 is_floating_tiff(bytes) ? Samples::floating : Samples::whole);
-  if (header.format == ImageHeader::Format::pgm) return plain_pgm(bytes, header);
+  if (is_pgm) return plain_pgm(bytes, header);
   std::optional<GreyImage> image = read_plain_png(bytes, header.width, header.height);
   if (!image) return Unreadable::damaged;
   return *std::move(image);

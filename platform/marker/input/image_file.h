@@ -32,6 +32,7 @@ struct ImageHeader {
   bool may_be_turned = false;
   std::size_t pixel_offset = 0;  ///< of the first pixel, for pgm
   std::size_t bytes = 0;         ///< of header and pixels, for pgm
+  std::size_t maximum = 255;     ///< the sample of white, for pgm
 };
 
 /// So many bytes of a file tell its format.

@@ -74,8 +74,12 @@ std::string unread_tiff(const Bytes& bytes) {
   const std::uint64_t format = tiff.value(page, sample_format).value_or(1);
   if (format == signed_samples) return "is a TIFF with signed samples" + advice;
   const std::uint64_t bits = tiff.value(page, bits_per_sample).value_or(1);
-  const bool is_read = bits <= 16 || (format == floating_samples && (bits == 32 || bits == 64));
-  if (!is_read) return "is a TIFF with samples of " + std::to_string(bits) + " bits" + advice;
+  const bool is_floating = format == floating_samples;
+  const bool is_read =
+      is_floating ? bits == 32 || bits == 64 : bits == 1 || bits == 8 || bits == 16;
+  if (!is_read)
+    return "is a TIFF with " + std::string(is_floating ? "floating-point " : "") + "samples of " +
+           std::to_string(bits) + " bits" + advice;
   const std::uint64_t second = tiff.next(page);
   const bool is_preview =
       second != 0 && (tiff.value(second, subfile_type).value_or(0) & reduced) != 0;

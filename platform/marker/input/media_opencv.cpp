@@ -2,6 +2,9 @@
 #include <host/stderr_capture.h>
 #include <marker/input/media.h>
 
+#include <tiffio.h>
+
+#include <cstdarg>
 #include <cstdlib>
 #include <filesystem>
 #include <opencv2/core/utils/logger.hpp>
@@ -47,6 +50,13 @@ Decoded<GreyImage> levels(const cv::Mat& picture) {
   cv::Mat whole;
   picture.convertTo(whole, CV_8U, most <= 1 ? white : 1);
   return grey_image(whole);
+}
+
+/// libtiff leaves black what it cannot decompress, and only says so.
+thread_local bool tiff_complains = false;
+
+void note_tiff_error(thandle_t, const char*, const char*, std::va_list) {
+  tiff_complains = true;
 }
 
 /// libjpeg fills what is missing with grey and only says so.
@@ -96,14 +106,19 @@ class OpencvMedia : public Media {
     ::setenv("OPENCV_FFMPEG_CAPTURE_OPTIONS",
              ("protocol_whitelist;file|format_whitelist;" + std::string(containers)).c_str(), 1);
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    TIFFSetErrorHandlerExt(&note_tiff_error);
   }
 
   Decoded<GreyImage> decode_image(const std::vector<std::uint8_t>& bytes,
                                   Samples samples) const override {
     const host::StderrCapture noise;
+    tiff_complains = false;
     try {
-      if (samples == Samples::floating) return levels(cv::imdecode(bytes, cv::IMREAD_UNCHANGED));
-      const cv::Mat picture = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+      const bool is_floating = samples == Samples::floating;
+      const cv::Mat picture =
+          cv::imdecode(bytes, is_floating ? cv::IMREAD_UNCHANGED : cv::IMREAD_GRAYSCALE);
+      if (tiff_complains) return Unreadable::damaged;
+      if (is_floating) return levels(picture);
       if (picture.empty() || complains(noise.text())) return Unreadable::damaged;
       return grey_image(picture);
     } catch (const cv::Exception& exception) {

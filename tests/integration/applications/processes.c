@@ -253,6 +253,17 @@ static void session_and_endless(void) {
   while (1) ++spins;
 }
 
+static void stops_itself(void) {
+  memory()[0] = 1;
+  raise(SIGSTOP);
+}
+
+static void kills_its_parent(void) {
+  memory()[0] = 1;
+  kill(getppid(), SIGKILL);
+  until_ended();
+}
+
 /* ---- Descriptors */
 
 static void check_devices(void) {
@@ -391,6 +402,8 @@ int main(int count, char** words) {
                {"idle", until_ended},
                {"leaves_a_session", leaves_a_session},
                {"session_and_endless", session_and_endless},
+               {"stops_itself", stops_itself},
+               {"kills_its_parent", kills_its_parent},
                {"closes_all", closes_all},
                {"takes_numbers", takes_numbers},
                {"takes_too_many", takes_too_many},

@@ -11,12 +11,19 @@
 #include <thread>
 
 #include <err.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 namespace {
 
 volatile int zero = 0;
 volatile int* volatile nowhere = nullptr;
+
+__attribute__((noinline)) int recurse(int depth) {
+  volatile char room[512];
+  room[0] = static_cast<char>(depth);
+  return zero == 0 ? recurse(depth + 1) + room[0] : 0;
+}
 
 void end(const std::string& way) {
   if (way == "exit") std::exit(0);
@@ -28,6 +35,19 @@ void end(const std::string& way) {
   if (way == "fault") *nowhere = 1;
   if (way == "division") zero = 100 / zero;
   if (way == "illegal") __builtin_trap();
+  if (way == "overflow") zero = recurse(0);
+#if defined(__x86_64__)
+  if (way == "breakpoint") __asm__ volatile("int3");
+#endif
+  if (way == "kill") ::kill(::getpid(), SIGKILL);
+  if (way == "raise") std::raise(SIGUSR1);
+  if (way == "harmless") std::raise(SIGCHLD);
+  if (way == "execl") ::execl("/bin/true", "true", nullptr);
+  if (way == "execve") {
+    char* const nothing[] = {nullptr};
+    ::execve("/bin/true", nothing, nothing);
+  }
+  if (way == "syscall") ::syscall(SYS_exit_group, 0);
   if (way == "fork") static_cast<void>(::fork());
   if (way == "throw") throw 5;
   if (way == "error") throw std::runtime_error("no more");

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <host/process.h>
+#include <vp/error.h>
 
 #include "temporary_files.h"
 
@@ -121,6 +122,19 @@ BOOST_AUTO_TEST_CASE(a_scratch_folder_goes_with_its_object) {
     BOOST_TEST((path.filename().string().rfind("markervp-test-", 0) == 0));
   }
   BOOST_TEST(!fs::exists(path));
+}
+
+BOOST_AUTO_TEST_CASE(where_no_scratch_folder_can_be_made_the_place_is_named) {
+  const auto refuses = [&](const std::string& place) {
+    ::setenv("TMPDIR", place.c_str(), 1);
+    BOOST_CHECK_EXCEPTION(ScratchFolder("test"), vp::HostError, [&](const vp::HostError& error) {
+      const std::string text = error.what();
+      return text.find("for temporary files in '" + place + "' (") != text.npos &&
+             text.find("let TMPDIR name one that takes files") != text.npos;
+    });
+  };
+  refuses(*this / "none");
+  refuses("/proc");
 }
 
 /// Whatever ends a process, even what it cannot see.

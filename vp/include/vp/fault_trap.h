@@ -55,7 +55,7 @@ struct Fault {
     interrupted,  ///< the user wants an end
   };
   Kind kind = Kind::none;
-  int signal = 0;         ///< SIGSEGV, SIGBUS, SIGILL, SIGFPE or SIGABRT
+  int signal = 0;         ///< SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT or SIGTRAP
   int code = 0;           ///< si_code; of an exit its status
   const char* call = "";  ///< the function that was called, of exit, forbidden and no_hal
   enum class Access { unknown, read, write, execute };
@@ -79,7 +79,7 @@ struct Fault {
 /// Runs foreign code; a fault in it ends that code, not the process. Nothing is unwound.
 ///
 /// Faults while ForeignCode::runs belong to it. Calls of exit() and its relatives are faults, too:
-/// see fault_trap.cpp. Several traps may run code by turns, each on a stack of its own, in one
+/// see process_calls.cpp. Several traps may run code by turns, each on a stack of its own, in one
 /// thread. The actions of the signals and the alternative stack of the thread are changed while any
 /// call() runs.
 ///
@@ -138,7 +138,7 @@ class FaultTrap {
   static bool (*on_access)(std::uintptr_t address, void* context);
 
  private:
-  static constexpr int signals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+  static constexpr int signals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP};
   static constexpr std::size_t signal_count = sizeof signals / sizeof signals[0];
 
   static void call_below(void (*code)(void* context), void* context);
@@ -181,8 +181,5 @@ class FaultTrap {
 
 /// exit() of the C library, also while ForeignCode::runs.
 [[noreturn]] void run_exit_handlers(int code);
-
-/// Ends the process at once, without destructors and exit handlers. For signal handlers, too.
-[[noreturn]] void end_process(int code);
 
 }  // namespace vp

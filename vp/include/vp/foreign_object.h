@@ -29,6 +29,10 @@ inline constexpr ObjectKind design_object{"design", "markervp_add_design",
 /// the process.
 void* load_object(const ObjectKind& kind, const std::string& path);
 
+/// An ELF file of 64 bits that ends before what its headers name: it is mapped as they say, and
+/// touching what it lacks is a bus error (SIGBUS). False for what is no ELF file.
+bool is_truncated_object(const std::string& path);
+
 /// Unloads it. If a destructor ends or damages the process, the process ends with a message and
 /// exit code 3: the loader cannot continue.
 void unload_object(const ObjectKind& kind, const std::string& path, void* handle);

@@ -34,6 +34,16 @@ const Bug endings[] = {
      "  assign busy = ring || started",
      "did not converge"},
 };
+// Its words would be random.
+const Bug no_memory = {"no_memory",
+                       "frame_status",
+                       "frame_status.sv",
+                       "logic started;",
+                       "logic started;\n  logic [7:0] words[4], word;\n"
+                       "  initial $readmemh(\"missing.hex\", words);\n"
+                       "  always_ff @(posedge clk) word <= words[word[1:0]];\n"
+                       "  final $display(\"%d\", word);",
+                       "$readmem file not found: 'missing.hex'; a relative name starts where"};
 const Bug no_reset = {"no_reset", "frame_status", "frame_status.sv", "      started <= 1'b0;\n",
                       "",         "busy"};
 
@@ -41,6 +51,7 @@ const RtlObjects& objects() {
   static const RtlObjects built([] {
     std::vector<RtlObjects::Object> list;
     for (const Bug& bug : endings) list.push_back({bug.name, bug.ip, "", &bug});
+    list.push_back({no_memory.name, no_memory.ip, "", &no_memory});
     list.push_back({no_reset.name, no_reset.ip, "", &no_reset});
     return list;
   }());
@@ -92,6 +103,11 @@ BOOST_AUTO_TEST_CASE(each_end_is_told_with_its_place) {
       }
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_memory_without_its_file_ends_the_run) {
+  const std::string failure = failure_with(objects().file(no_memory.name));
+  BOOST_TEST(contains(failure, no_memory.port), failure);
 }
 
 // In the place of the model nothing shows it.

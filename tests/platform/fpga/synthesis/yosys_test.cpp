@@ -2,6 +2,7 @@
 #include <fpga/synthesis/synthesis.h>
 
 #include <stdlib.h>
+#include <sys/mount.h>
 
 #include <host/digest.h>
 #include <boost/test/unit_test.hpp>
@@ -191,6 +192,26 @@ BOOST_AUTO_TEST_CASE(a_folder_for_temporary_files_may_have_a_space) {
   BOOST_TEST(figures.netlist.cells.ff == 8u);
   check_says(loop, {"own.sv:2", "loop"});
   BOOST_TEST(std::filesystem::is_empty(place));
+}
+
+// Yosys ends with 0, and its netlist is cut.
+BOOST_AUTO_TEST_CASE(a_full_folder_for_temporary_files_is_named) {
+  const std::string place = folder / "full";
+  std::filesystem::create_directory(place);
+  if (::mount("none", place.c_str(), "tmpfs", 0, "size=24k") != 0) {
+    BOOST_TEST_MESSAGE("this user may mount nothing");
+    return;
+  }
+  const char* const before = std::getenv("TMPDIR");
+  const std::string was = before ? before : "";
+  ::setenv("TMPDIR", place.c_str(), 1);
+  BOOST_CHECK_EXCEPTION(synthesise(design(counter, "own"), timing), vp::HostError,
+                        [&](const vp::HostError& error) {
+                          const std::string text = error.what();
+                          return text.find("no room is left in '" + place) != text.npos;
+                        });
+  before ? ::setenv("TMPDIR", was.c_str(), 1) : ::unsetenv("TMPDIR");
+  ::umount(place.c_str());
 }
 
 BOOST_AUTO_TEST_CASE(a_latch_is_named_with_its_line) {

@@ -223,7 +223,7 @@ BOOST_AUTO_TEST_CASE(distortion_under_another_name_is_refused) {
        {"distortion_vec: [-0.3, 0, 0, 0, 0]", "dist_coeff: [-0.3, 0, 0, 0]", "dist: [-0.3]",
         "camera_dist: {rows: 1, cols: 5, data: [-0.3, 0.1, 0, 0, 0]}", "k1: -0.3", "kc: [-0.3, 0]",
         "lens: {distortion: [-0.3, 0, 0, 0]}", "lens: [-0.3, 0, 0, 0]", "radial: [-0.3]",
-        "extra: [{k1: -0.3}]", "coeffs: [-0.3, 0, 0, 0]"}) {
+        "extra: [{k1: -0.3}]", "thin_prism: [0.1, 0.1]", "coeffs: [-0.3, 0, 0, 0]"}) {
     CHECK_REFUSED(read(folder, k + entry + "\n"), "looks like lens distortion and is not read");
   }
   BOOST_TEST(read(folder, k + "working_distance: 0.5\n").oddities.size() == 1u);

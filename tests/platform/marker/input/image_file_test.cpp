@@ -103,6 +103,70 @@ BOOST_AUTO_TEST_CASE(images_that_are_not_read_are_refused_by_kind) {
   refuses("moves.png", "is an animated PNG: save its pictures one by one");
 }
 
+/// libtiff decodes them to black, and only says so.
+BOOST_AUTO_TEST_CASE(tiff_files_that_cannot_be_decompressed_are_refused) {
+  const TemporaryFolder folder;
+  constexpr int none = 1, lzw = 5, deflate = 8;
+  for (const int compression : {lzw, deflate}) {
+    const std::string path = folder / "a.tiff";
+    cv::imwrite(path, pattern(48, 32), {cv::IMWRITE_TIFF_COMPRESSION, compression});
+    std::string bytes = kit::read_file(path);
+    constexpr std::size_t data = 8, length = 40;
+    bytes.replace(data, length, length, '\x55');
+    kit::write_file(path, bytes);
+    CHECK_REFUSED(read_image(path), "is damaged or truncated");
+  }
+  const std::string path = folder / "unknown.tiff";
+  cv::imwrite(path, pattern(48, 32), {cv::IMWRITE_TIFF_COMPRESSION, none});
+  std::string bytes = kit::read_file(path);
+  const std::size_t tag = bytes.find(std::string("\x03\x01\x03\0\x01\0\0\0\x01\0", 10));
+  BOOST_TEST_REQUIRE(tag != bytes.npos);
+  bytes.replace(tag + 8, 2, "\xE7\x03");  // 999
+  kit::write_file(path, bytes);
+  CHECK_REFUSED(read_image(path), "is damaged or truncated");
+  // What can be decompressed is read after that as before.
+  cv::imwrite(path, pattern(48, 32), {cv::IMWRITE_TIFF_COMPRESSION, lzw});
+  check_same_as_opencv(path);
+}
+
+BOOST_AUTO_TEST_CASE(tiff_samples_of_other_sizes_are_refused_by_kind) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.tiff";
+  cv::imwrite(path, pattern(48, 32));
+  const std::string whole = kit::read_file(path);
+  const std::size_t tag = whole.find(std::string("\x02\x01\x03\0\x01\0\0\0\x08\0", 10));
+  BOOST_TEST_REQUIRE(tag != whole.npos);
+  for (const char bits : {2, 4, 12, 32}) {
+    std::string bytes = whole;
+    bytes[tag + 8] = bits;
+    kit::write_file(path, bytes);
+    CHECK_REFUSED(read_image(path),
+                  "is a TIFF with samples of " + std::to_string(int{bits}) + " bits: save it");
+  }
+}
+
+/// 10 bits of a camera, for example.
+BOOST_AUTO_TEST_CASE(samples_of_a_pgm_are_shares_of_its_maximum) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& content) {
+    kit::write_file(folder / "a.pgm", content);
+    return read_image(folder / "a.pgm")->pixels;
+  };
+  const auto is = [](const std::vector<std::uint8_t>& pixels, std::vector<std::uint8_t> expected) {
+    return pixels == expected;
+  };
+  BOOST_TEST(is(read(std::string("P5 3 1 1023\n\0\0\x02\0\x03\xFF", 18)), {0, 128, 255}));
+  BOOST_TEST(is(read(std::string("P5 3 1 100\n\0\x32\x64", 14)), {0, 128, 255}));
+  BOOST_TEST(is(read(std::string("P5 2 1 1\n\0\x01", 11)), {0, 255}));
+  BOOST_TEST(is(read(std::string("P5 2 1 65535\n\x80\0\xFF\xFF", 17)), {128, 255}));
+  CHECK_REFUSED(read(std::string("P5 2 1 100\n\x64\x65", 13)), "is damaged");
+  CHECK_REFUSED(read("P5 2 1 0\n\x64\x65"), "its brightest sample is 0: it must be 1 to 65535");
+  CHECK_REFUSED(read("P5 1 1 65536\n\x64\x65\x64"), "its brightest sample is 65536: it must be");
+  CHECK_REFUSED(read("P2 2 1 100\n50 100\n"), "is 100: save it with 255 or 65535");
+  CHECK_REFUSED(read("P6 1 1 1023\n\x01\x01\x01\x01\x01\x01"), "is 1023: save it with 255");
+  BOOST_TEST(is(read("P2 2 1 255\n50 255\n"), {50, 255}));
+}
+
 BOOST_AUTO_TEST_CASE(plain_files_hold_the_pixels_exactly) {
   const TemporaryFolder folder;
   const cv::Mat picture = pattern(640, 480);
