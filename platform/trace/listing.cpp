@@ -3,6 +3,7 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 
+#include <cstring>
 #include <optional>
 
 namespace platform::trace {
@@ -29,24 +30,39 @@ class ValueCounter final : public vp::WaveHandler {
   }
   void change(std::uint32_t net, const vp::WaveValue& value) override {
     Net& state = nets_[net];
-    const bool in_bits = value.kind == Kind::bits && value.known && value.text.size() <= 64;
-    const bool same = state.count != 0 && state.in_bits == in_bits &&
-                      (in_bits ? state.bits == value.bits : state.text == value.text);
+    Form form = Form::text;
+    std::uint64_t bits = value.bits;
+    if (value.kind == Kind::bits && value.plain && state.width <= 64) {
+      form = Form::bits;
+    } else if (value.kind == Kind::real && value.known) {
+      form = Form::real;
+      std::memcpy(&bits, &value.real, sizeof bits);
+    }
+    const bool same = state.count != 0 && state.form == form &&
+                      (form == Form::text ? state.text == value.text : state.bits == bits);
     if (same && !state.is_event) return;
     ++state.count;
-    state.in_bits = in_bits;
-    state.bits = value.bits;
-    if (!in_bits) state.text = value.text;
+    state.form = form;
+    state.bits = bits;
+    if (form == Form::text) state.text = value.text;
   }
-  void mark_event(std::uint32_t net) { nets_[net].is_event = true; }
+  bool needs_texts() const override { return false; }
+  void declare(const vp::WaveVariable& variable) {
+    nets_[variable.net].is_event = variable.is_event;
+    nets_[variable.net].width = variable.width;
+  }
   std::uint64_t count(std::uint32_t net) const { return nets_[net].count; }
 
   std::optional<std::string> first;
 
  private:
+  /// What two values are compared by: bits, the bits of a real, or what the file says.
+  enum class Form : std::uint8_t { bits, real, text };
   struct Net {
     std::uint64_t count = 0, bits = 0;
-    bool in_bits = false, is_event = false;
+    unsigned width = 0;
+    Form form = Form::text;
+    bool is_event = false;
     std::string text;
   };
   TraceFile& file_;
@@ -77,7 +93,7 @@ Listing listing(TraceFile& file, const vp::TraceFilter& filter) {
     } else {
       first_of_net[variable.net] = static_cast<std::int64_t>(listing.signals.size());
       reader.select(variable.net);
-      if (variable.is_event) counter.mark_event(variable.net);
+      counter.declare(variable);
     }
     if (variable.enumeration != 0) {
       for (const auto& [digits, word] : reader.enumerations()[variable.enumeration - 1].words)

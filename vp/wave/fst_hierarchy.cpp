@@ -7,10 +7,6 @@ namespace vp {
 
 namespace {
 
-constexpr std::size_t deepest = 1000;
-constexpr std::size_t longest_path = 1 << 16;
-constexpr std::uint64_t largest_paths = std::uint64_t{1} << 30;
-
 bool is_real(std::uint8_t type) {
   return type == fst::real || type == fst::real_parameter || type == fst::realtime ||
          type == fst::shortreal;
@@ -34,7 +30,6 @@ FstReader::Net net_of(std::uint32_t size) {
 }  // namespace
 
 void FstReader::read_hierarchy() {
-  constexpr std::uint32_t widest = 1 << 20;
   for (const std::uint32_t size : file_.geometry()) nets_.push_back(net_of(size));
   const bool has_geometry = !nets_.empty();
   const std::string bytes = file_.hierarchy();
@@ -45,7 +40,7 @@ void FstReader::read_hierarchy() {
     const std::uint8_t tag = cursor.byte();
     if (tag == fst::scope) {
       const std::uint8_t type = cursor.byte();  // module, task, process …
-      if (scopes.size() == deepest) cursor.fail("has more than 1000 scopes inside each other");
+      if (scopes.size() == deepest_scope) cursor.fail("has more than 1000 scopes inside each other");
       const std::string name = clean_name(cursor.text());
       cursor.text();  // its component
       scopes.push_back(
@@ -68,7 +63,7 @@ void FstReader::read_hierarchy() {
     }
   }
   for (const WaveDeclared& declared : declared_) {
-    if (nets_[declared.variable.net].width > widest) {
+    if (nets_[declared.variable.net].width > widest_signal) {
       cursor.fail("declares a signal of more than 1048576 bits");
     }
   }

@@ -54,6 +54,7 @@ std::uint64_t FstReader::block_before(std::uint64_t steps) {
 }
 
 void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler) {
+  needs_texts_ = handler.needs_texts();
   bool entered = entry_.has_value();
   if (entered) {
     block_ = *std::exchange(entry_, std::nullopt);
@@ -186,9 +187,8 @@ std::vector<FstReader::Place> FstReader::read_places(const fst::File::Section& s
 
 void FstReader::unpack_chains(const std::vector<Place>& places, char method,
                               const std::vector<bool>& selected) {
-  chains_.assign(nets_.size(), {});
-  also_due_.assign(nets_.size(), 0);
-  due_.assign(times_.size(), 0);
+  changes_.begin(times_.size());
+  std::vector<std::string_view> chains(places.size());
   std::vector<bool> wanted(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!selected[i]) continue;
@@ -217,42 +217,28 @@ void FstReader::unpack_chains(const std::vector<Place>& places, char method,
     } else if (!fst::unpack(method, content, chain, length)) {
       cursor.fail("cannot be unpacked");
     }
-    chains_[i] = {chain, chain + length, 0};
+    chains[i] = {chain, length};
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].same_as != 0) chains_[i] = chains_[places[i].same_as - 1];
-  }
-  for (std::size_t i = places.size(); i > 0; --i) {
-    if (selected[i - 1]) schedule(static_cast<std::uint32_t>(i - 1), 0);
+    const std::uint32_t same_as = places[i].same_as;
+    const std::string_view chain = chains[same_as != 0 ? same_as - 1 : i];
+    if (!selected[i] || chain.empty()) continue;
+    if (!changes_.add(chain_of(static_cast<std::uint32_t>(i), chain))) corrupt_changes();
   }
 }
 
-std::uint64_t FstReader::varint(Chain& chain) const {
-  std::uint64_t value = 0;
-  for (unsigned shift = 0; shift < 64; shift += 7) {
-    if (chain.next == chain.end) corrupt_changes();
-    const auto byte = static_cast<unsigned char>(*chain.next++);
-    value |= static_cast<std::uint64_t>(byte & 0x7f) << shift;
-    if (byte < 0x80) return value;
+FstChanges::Chain FstReader::chain_of(std::uint32_t net, std::string_view bytes) const {
+  const Net& form = nets_[net];
+  const bool is_scalar = form.kind == WaveVariable::Kind::bits && form.length() == 1;
+  FstChanges::Chain chain{bytes.data(), bytes.data() + bytes.size(), net, FstChanges::Form::vector,
+                          static_cast<std::uint32_t>(form.length())};
+  if (form.kind == WaveVariable::Kind::text) chain.form = FstChanges::Form::text;
+  if (is_scalar) chain.form = FstChanges::Form::scalar;
+  if (form.kind == WaveVariable::Kind::real) {
+    chain.form = FstChanges::Form::real;
+    chain.length = sizeof(double);
   }
-  corrupt_changes();
-}
-
-const char* FstReader::take(Chain& chain, std::uint64_t size) const {
-  if (size > static_cast<std::uint64_t>(chain.end - chain.next)) corrupt_changes();
-  return std::exchange(chain.next, chain.next + size);
-}
-
-/// Reads when the net changes next, counted from the instant `from`.
-void FstReader::schedule(std::uint32_t net, std::size_t from) {
-  Chain& chain = chains_[net];
-  if (chain.next == chain.end) return;
-  const std::uint64_t head = chain.head = varint(chain);
-  const bool is_scalar = nets_[net].kind == WaveVariable::Kind::bits && nets_[net].length() == 1;
-  const std::uint64_t delta = is_scalar ? head >> ((head & 1) != 0 ? 4 : 2) : head >> 1;
-  if (delta >= due_.size() - from) corrupt_changes();
-  std::uint32_t& first = due_[from + delta];
-  also_due_[net] = std::exchange(first, net + 1);
+  return chain;
 }
 
 bool FstReader::hand_over_block(const Time& at, const std::vector<bool>& selected,
@@ -264,12 +250,9 @@ bool FstReader::hand_over_block(const Time& at, const std::vector<bool>& selecte
   }
   for (; instant_ < times_.size(); ++instant_, announced_ = false) {
     if (!std::exchange(announced_, true) && !at(times_[instant_])) return false;
-    while (due_[instant_] != 0) {
-      const std::uint32_t net = due_[instant_] - 1;
-      due_[instant_] = also_due_[net];
-      hand_over(net, handler);
-      schedule(net, instant_);
-    }
+    const auto changes = changes_.at(instant_);
+    if (!changes) corrupt_changes();
+    for (const FstChanges::Change& change : *changes) hand_over(change, handler);
   }
   return true;
 }
@@ -301,55 +284,56 @@ void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& 
   }
 }
 
-void FstReader::hand_over(std::uint32_t net, WaveHandler& handler) {
-  Chain& chain = chains_[net];
-  const std::uint64_t head = chain.head;
-  const bool as_written = (head & 1) != 0;
-  const Net& form = nets_[net];
+void FstReader::hand_over(const FstChanges::Change& change, WaveHandler& handler) {
+  const Net& form = nets_[change.net];
   if (form.kind == WaveVariable::Kind::text) {
-    if (as_written) corrupt_changes();
     WaveValue value;
     value.kind = form.kind;
     value.known = true;
-    const std::uint64_t size = varint(chain);
-    value.text = {take(chain, size), size};
-    handler.change(net, value);
+    value.text = FstChanges::text(change);
+    handler.change(change.net, value);
   } else if (form.kind == WaveVariable::Kind::real) {
-    if (as_written) {
-      hand_over_real(net, take(chain, sizeof(double)), handler);
-    } else {  // its eight bytes happen to be digits
-      hand_over_real(net, digits_of_byte[static_cast<unsigned char>(*take(chain, 1))].data(),
-                     handler);
-    }
+    // Packed are the eight bytes of a real that happen to be digits.
+    hand_over_real(change.net,
+                   change.as_written
+                       ? change.value
+                       : digits_of_byte[static_cast<unsigned char>(*change.value)].data(),
+                   handler);
+  } else if (change.as_written) {
+    const bool is_scalar = form.length() == 1;
+    hand_over_bits(change.net,
+                   is_scalar ? fst::letters.substr(change.state, 1)
+                             : std::string_view(change.value, form.length()),
+                   handler);
   } else if (form.length() == 1) {
     WaveValue value;
-    if (as_written) {
-      hand_over_bits(net, fst::letters.substr(head >> 1 & 7, 1), handler);
-      return;
-    }
-    value.known = true;
-    value.bits = head >> 1 & 1;
+    value.known = value.plain = true;
+    value.bits = change.state;
     value.text = std::string_view("01").substr(value.bits, 1);
-    handler.change(net, value);
-  } else if (as_written) {
-    hand_over_bits(net, {take(chain, form.length()), form.length()}, handler);
+    handler.change(change.net, value);
   } else {
-    if (form.is_port) corrupt_changes();
-    const unsigned count = (form.width + 7) / 8;
-    const char* bytes = take(chain, count);
-    text_.resize(std::size_t{count} * 8);
-    unsigned __int128 all = 0;
-    for (unsigned i = 0; i < count; ++i) {
-      const auto byte = static_cast<unsigned char>(bytes[i]);
-      std::memcpy(&text_[std::size_t{i} * 8], digits_of_byte[byte].data(), 8);
-      all = all << 8 | byte;
-    }
-    WaveValue value;
-    value.known = true;
-    value.bits = static_cast<std::uint64_t>(all >> (count * 8 - form.width));
-    value.text = std::string_view(text_).substr(0, form.width);
-    handler.change(net, value);
+    hand_over_packed(change, handler);
   }
+}
+
+void FstReader::hand_over_packed(const FstChanges::Change& change, WaveHandler& handler) {
+  const Net& form = nets_[change.net];
+  if (form.is_port) corrupt_changes();
+  const unsigned count = (form.width + 7) / 8;
+  unsigned __int128 all = 0;
+  for (unsigned i = 0; i < count; ++i) all = all << 8 | static_cast<unsigned char>(change.value[i]);
+  WaveValue value;
+  value.known = value.plain = true;
+  value.bits = static_cast<std::uint64_t>(all >> (count * 8 - form.width));
+  if (needs_texts_ || form.width > 64) {
+    text_.resize(std::size_t{count} * 8);
+    for (unsigned i = 0; i < count; ++i) {
+      const auto byte = static_cast<unsigned char>(change.value[i]);
+      std::memcpy(&text_[std::size_t{i} * 8], digits_of_byte[byte].data(), 8);
+    }
+    value.text = std::string_view(text_).substr(0, form.width);
+  }
+  handler.change(change.net, value);
 }
 
 void FstReader::hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler) {
@@ -366,6 +350,7 @@ void FstReader::hand_over_bits(std::uint32_t net, std::string_view digits, WaveH
   }
   WaveValue value;
   value.known = decoded.known;
+  value.plain = decoded.plain;
   value.bits = decoded.bits;
   value.text = digits;
   handler.change(net, value);
@@ -379,12 +364,14 @@ void FstReader::hand_over_real(std::uint32_t net, const char* bytes, WaveHandler
   value.kind = WaveVariable::Kind::real;
   std::memcpy(&value.real, &bits, sizeof bits);
   value.known = std::isfinite(value.real);
-  constexpr std::size_t longest = 32;
-  text_.resize(longest);
-  const auto end = std::to_chars(text_.data(), text_.data() + longest, value.real).ptr;
-  value.text = std::isnan(value.real) ? std::string_view("nan")
-                                      : std::string_view(text_).substr(
-                                            0, static_cast<std::size_t>(end - text_.data()));
+  if (needs_texts_ || !value.known) {
+    constexpr std::size_t longest = 32;
+    text_.resize(longest);
+    const auto end = std::to_chars(text_.data(), text_.data() + longest, value.real).ptr;
+    value.text = std::isnan(value.real) ? std::string_view("nan")
+                                        : std::string_view(text_).substr(
+                                              0, static_cast<std::size_t>(end - text_.data()));
+  }
   handler.change(net, value);
 }
 

@@ -11,6 +11,7 @@
 #include <vp/wave_reader.h>
 
 #include "byte_arena.h"
+#include "fst_changes.h"
 #include "fst_file.h"
 #include "wave_declared.h"
 
@@ -51,12 +52,6 @@ class FstReader {
   void read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler);
 
  private:
-  /// The changes of a net in a block, of which those before `next` were handed over.
-  struct Chain {
-    const char* next = nullptr;
-    const char* end = nullptr;
-    std::uint64_t head = 0;  ///< of the change that is due: its time, and how it is written
-  };
   /// Where the chain of a handle is among the bytes of a block.
   struct Place {
     std::uint64_t at = 0;  ///< in the file; 0: no changes
@@ -79,12 +74,11 @@ class FstReader {
                                  std::uint64_t table_end, std::uint64_t handles) const;
   void unpack_chains(const std::vector<Place>& places, char method,
                      const std::vector<bool>& selected);
-  void schedule(std::uint32_t net, std::size_t from);
+  FstChanges::Chain chain_of(std::uint32_t net, std::string_view bytes) const;
   void hand_over_frame(const std::vector<bool>& selected, WaveHandler& handler);
   bool hand_over_block(const Time& at, const std::vector<bool>& selected, WaveHandler& handler);
-  void hand_over(std::uint32_t net, WaveHandler& handler);
-  std::uint64_t varint(Chain& chain) const;
-  const char* take(Chain& chain, std::uint64_t size) const;
+  void hand_over(const FstChanges::Change& change, WaveHandler& handler);
+  void hand_over_packed(const FstChanges::Change& change, WaveHandler& handler);
   void hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler);
   void hand_over_real(std::uint32_t net, const char* bytes, WaveHandler& handler);
   [[noreturn]] void corrupt_changes() const;
@@ -108,10 +102,9 @@ class FstReader {
   std::uint64_t block_start_ = 0, block_end_ = 0;
   std::vector<std::uint64_t> times_;
   std::string frame_;
-  ByteArena unpacked_;                   ///< chains point into it
-  std::vector<Chain> chains_;            ///< by net
-  std::vector<std::uint32_t> due_;       ///< by instant: net + 1 of the first that changes in it
-  std::vector<std::uint32_t> also_due_;  ///< by net: net + 1 of the next in the same instant
+  ByteArena unpacked_;  ///< chains point into it
+  FstChanges changes_;
+  bool needs_texts_ = true;  ///< of the handler
   std::string text_;
 };
 

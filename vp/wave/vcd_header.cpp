@@ -13,10 +13,6 @@ namespace vp {
 
 namespace {
 
-constexpr std::size_t deepest = 1000;
-constexpr std::size_t longest_path = 1 << 16;
-constexpr std::uint64_t largest_paths = std::uint64_t{1} << 30;
-constexpr unsigned widest = 1 << 20;
 constexpr std::uint64_t fs_per_ns = 1'000'000;
 constexpr const char* header = "the header";
 
@@ -164,7 +160,7 @@ void VcdReader::read_scope() {
       if (name.size() > longest_path) fail("the name of a scope has more than 64 KiB");
     }
   }
-  if (scopes_.size() == deepest) fail("more than 1000 scopes inside each other");
+  if (scopes_.size() == deepest_scope) fail("more than 1000 scopes inside each other");
   // A scope without a name adds no level.
   Scope scope{scopes_.empty() ? "" : scopes_.back().path,
               type == "sv_array" || type == "vhdl_array"};
@@ -221,7 +217,7 @@ void VcdReader::read_variable() {
   variable.is_event = type == "event";
   const bool is_bits = variable.kind == WaveVariable::Kind::bits;
   std::uint64_t width = 0;
-  if (!read_size(size, width) || width > widest)
+  if (!read_size(size, width) || width > widest_signal)
     fail("the size " + shown(size) + " of signal " + shown(name) + " is not 0 to 1048576");
   variable.width = !is_bits || variable.is_event ? 1 : static_cast<unsigned>(width);
   if (!scopes_.empty()) variable.path = scopes_.back().path;

@@ -38,6 +38,7 @@ void VcdReader::read_bits(std::string_view digits, std::uint32_t net, WaveHandle
   }
   WaveValue value;
   value.known = decoded.known;
+  value.plain = decoded.plain;
   value.bits = decoded.bits;
   value.text = digits;
   if (form.kind == WaveVariable::Kind::text) {
@@ -55,6 +56,7 @@ void VcdReader::read_bits(std::string_view digits, std::uint32_t net, WaveHandle
     shorten(digits, form.width);
     decoded = decode_digits(digits);
     value.known = decoded.known;
+    value.plain = decoded.plain;
     value.bits = decoded.bits;
     value.text = digits;
   } else if (digits.size() < form.width &&

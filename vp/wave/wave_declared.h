@@ -10,6 +10,12 @@
 
 namespace vp {
 
+/// Limits of what a file may declare: levels, bytes of a path and of all paths, bits.
+constexpr std::size_t deepest_scope = 1000;
+constexpr std::size_t longest_path = 1 << 16;
+constexpr std::uint64_t largest_paths = std::uint64_t{1} << 30;
+constexpr unsigned widest_signal = 1 << 20;
+
 /// A variable as a file declares it.
 struct WaveDeclared {
   WaveVariable variable;   ///< its net is one of the file
@@ -122,10 +128,10 @@ class WaveJoiner final : public WaveHandler {
   const std::vector<bool>* selected_ = nullptr;
 };
 
-/// The bits of digits: known if all are 0, 1, l or h. `letters`: some digit is neither 0 nor 1.
+/// The bits of digits: known if all are 0, 1, l or h; plain if all are 0 or 1.
 struct DecodedDigits {
   std::uint64_t bits = 0;
-  bool known = true, letters = false, capitals = false, valid = true;
+  bool known = true, plain = true, capitals = false, valid = true;
 };
 DecodedDigits decode_digits(std::string_view digits);
 

@@ -39,6 +39,7 @@ struct WaveEnumeration {
 struct WaveValue {
   WaveVariable::Kind kind = WaveVariable::Kind::bits;  ///< text for a word in a vector of bits
   bool known = false;      ///< all digits are 0, 1, l or h; a real is a number
+  bool plain = false;      ///< all digits are 0 or 1
   std::uint64_t bits = 0;  ///< right-aligned, the lowest 64; l is 0, h is 1; 0 if not known
   double real = 0;         ///< of a real
   std::string_view text;   ///< as written, small: "0", "1x", "2.5"; of a text what it says
@@ -59,6 +60,9 @@ class WaveHandler {
   /// From here on the file does not say what happens ($dumpoff), or says it again. The values are x
   /// meanwhile.
   virtual void recorded(bool /*is_recorded*/) {}
+  /// False: values may come without their text if `bits` or `real` has all of them, so plain ones
+  /// of up to 64 bits and known reals.
+  virtual bool needs_texts() const { return true; }
 };
 
 /// How a trace is read.
