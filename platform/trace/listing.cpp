@@ -19,6 +19,16 @@ std::string type_of(const vp::WaveVariable& variable) {
   return std::to_string(variable.width) + (variable.width == 1 ? " bit" : " bits");
 }
 
+/// Without the digits on the left that full_digits() restores.
+std::string_view shortest_digits(std::string_view digits) {
+  const auto is_restored = [&] {
+    return digits[0] == '0' ? digits[1] == '0' || digits[1] == '1'
+                            : digits[0] != '1' && digits[0] == digits[1];
+  };
+  while (digits.size() > 1 && is_restored()) digits.remove_prefix(1);
+  return digits;
+}
+
 /// Counts the values of each net that are not the one before.
 class ValueCounter final : public vp::WaveHandler {
  public:
@@ -32,19 +42,28 @@ class ValueCounter final : public vp::WaveHandler {
     Net& state = nets_[net];
     Form form = Form::text;
     std::uint64_t bits = value.bits;
+    std::string_view text = value.text;
     if (value.kind == Kind::bits && value.plain && state.width <= 64) {
       form = Form::bits;
+    } else if (value.kind == Kind::bits) {
+      text = shortest_digits(text);
+      if (text.size() == 1) {
+        form = Form::letter;
+        bits = static_cast<unsigned char>(text.front());
+      }
     } else if (value.kind == Kind::real && value.known) {
       form = Form::real;
       std::memcpy(&bits, &value.real, sizeof bits);
     }
     const bool same = state.count != 0 && state.form == form &&
-                      (form == Form::text ? state.text == value.text : state.bits == bits);
+                      (form == Form::text ? texts_[net] == text : state.bits == bits);
     if (same && !state.is_event) return;
     ++state.count;
     state.form = form;
     state.bits = bits;
-    if (form == Form::text) state.text = value.text;
+    if (form != Form::text) return;
+    if (texts_.empty()) texts_.resize(nets_.size());
+    texts_[net] = text;
   }
   bool needs_texts() const override { return false; }
   void declare(const vp::WaveVariable& variable) {
@@ -56,17 +75,18 @@ class ValueCounter final : public vp::WaveHandler {
   std::optional<std::string> first;
 
  private:
-  /// What two values are compared by: bits, the bits of a real, or what the file says.
-  enum class Form : std::uint8_t { bits, real, text };
+  /// What two values are compared by: bits, the bits of a real, a letter that fills all digits, or
+  /// what the file says.
+  enum class Form : std::uint8_t { bits, real, letter, text };
   struct Net {
     std::uint64_t count = 0, bits = 0;
     unsigned width = 0;
     Form form = Form::text;
     bool is_event = false;
-    std::string text;
   };
   TraceFile& file_;
   std::vector<Net> nets_;
+  std::vector<std::string> texts_;  ///< by net; empty before the first
 };
 
 }  // namespace

@@ -6,16 +6,27 @@ namespace vp {
 
 namespace {
 
+bool read_long_number(const char*& next, const char* end, std::uint64_t& value) {
+  value = 0;
+  for (unsigned shift = 0; shift < 64; shift += 7) {
+    if (next == end) return false;
+    const auto byte = static_cast<unsigned char>(*next++);
+    value |= static_cast<std::uint64_t>(byte & 0x7fu) << shift;
+    if (byte < 0x80) return true;
+  }
+  return false;
+}
+
 /// Reads a number of seven bits a byte. False: the bytes end within it, or it is too large.
 bool read_number(const char*& next, const char* end, std::uint64_t& value) {
-  if (next == end) return false;
-  auto byte = static_cast<unsigned char>(*next++);
-  value = byte & 0x7fu;
-  for (unsigned shift = 7; byte >= 0x80; shift += 7) {
-    if (next == end || shift >= 64) return false;
-    byte = static_cast<unsigned char>(*next++);
-    value |= static_cast<std::uint64_t>(byte & 0x7fu) << shift;
-  }
+  // One byte or two, without a branch: which of both it is cannot be predicted.
+  if (end - next < 2) return read_long_number(next, end, value);
+  const auto first = static_cast<unsigned char>(next[0]);
+  const auto second = static_cast<unsigned char>(next[1]);
+  const unsigned has_second = first >> 7;
+  if ((has_second & second >> 7) != 0) return read_long_number(next, end, value);
+  value = (first & 0x7fu) | (second & (0x7fu * has_second)) << 7;
+  next += 1 + has_second;
   return true;
 }
 
@@ -25,12 +36,22 @@ bool pass(const char*& next, const char* end, std::uint64_t size) {
   return true;
 }
 
+/// The highest bit is the first of the first byte.
+std::uint64_t packed_bits(const char* bytes, std::uint32_t width) {
+  std::uint64_t bits = 0;
+  for (std::uint32_t i = 0; i < width / 8; ++i)
+    bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
+  const std::uint32_t rest = width % 8;
+  if (rest == 0) return bits;
+  return bits << rest | static_cast<unsigned char>(bytes[width / 8]) >> (8 - rest);
+}
+
 }  // namespace
 
 std::string_view FstChanges::text(const Change& change) {
-  const char* bytes = change.value;
+  const char* bytes = change.bytes;
   std::uint64_t size = 0;
-  read_number(bytes, nullptr, size);  // it ends: collect_chain() has read it
+  read_long_number(bytes, nullptr, size);  // it ends: collect_chain() has read it
   return {bytes, static_cast<std::size_t>(size)};
 }
 
@@ -51,11 +72,11 @@ bool FstChanges::read_head(const Chain& chain, Position& position) const {
   }
   std::uint64_t head = 0;
   if (!read_number(position.next, chain.end, head)) return false;
-  const unsigned flags = form != Form::scalar ? 1 : (head & 1) != 0 ? 4 : 2;
+  const auto flags = form == Form::scalar ? 2 + 2 * (head & 1) : 1;
   const std::uint64_t delta = head >> flags;
   if (delta >= instants_ - position.due) return false;
   position.head = head;
-  position.due += delta;
+  position.due += static_cast<std::uint32_t>(delta);
   return true;
 }
 
@@ -72,6 +93,7 @@ bool FstChanges::add(const Chain& chain) {
 
 /// Sorts the changes from `first` on. False: a chain is corrupt.
 bool FstChanges::fill(std::size_t first) {
+  limit_ = std::clamp(chains_.size() * sorted_of_chain, fewest_sorted, most_sorted);
   for (;;) {
     const std::size_t end = std::min(instants_, first + span_);
     const Outcome outcome = collect(first, end);
@@ -88,16 +110,19 @@ bool FstChanges::fill(std::size_t first) {
     }
   }
   sort(end_ - first_);
-  if (collected_.size() < most_changes / 4) span_ = std::min(span_ * 2, longest_span);
+  if (collected_.size() < limit_ / 4) span_ = std::min(span_ * 2, longest_span);
   return true;
 }
 
 /// Takes the changes before `end` off all chains.
 FstChanges::Outcome FstChanges::collect(std::size_t first, std::size_t end) {
+  constexpr std::size_t ahead = 8;
   collected_.clear();
   before_.clear();
   for (std::size_t place = 0; place < due_.size(); ++place) {
     if (due_[place] >= end) continue;
+    // Chains lie far apart; the hardware cannot foresee the next one.
+    if (place + ahead < positions_.size()) __builtin_prefetch(positions_[place + ahead].next);
     before_.emplace_back(static_cast<std::uint32_t>(place), positions_[place]);
     Outcome outcome = Outcome::whole;
     switch (chains_[place].form) {
@@ -116,7 +141,7 @@ FstChanges::Outcome FstChanges::collect(std::size_t first, std::size_t end) {
     }
     if (outcome != Outcome::whole) return outcome;
     // One instant has as many changes as it has.
-    if (collected_.size() > most_changes && end - first > 1) return Outcome::too_many;
+    if (collected_.size() > limit_ && end - first > 1) return Outcome::too_many;
   }
   return Outcome::whole;
 }
@@ -128,20 +153,26 @@ FstChanges::Outcome FstChanges::collect_chain(std::size_t place, std::size_t fir
   const std::uint32_t packed = form == Form::vector ? (chain.length + 7) / 8 : 1;
   Position position = positions_[place];
   while (position.due < end) {
-    const bool as_written = (position.head & 1) != 0;
-    Change change{position.next, chain.net, static_cast<std::uint16_t>(position.due - first),
-                  as_written, 0};
-    if constexpr (form == Form::scalar) {
-      change.state = static_cast<std::uint8_t>(position.head >> 1 & (as_written ? 7 : 1));
-    } else if constexpr (form == Form::text) {
+    // Field by field in its place: a copy that is read back as a whole would wait for its parts.
+    Change& change = collected_.emplace_back();
+    change.bytes = position.next;
+    change.net = chain.net;
+    change.instant = static_cast<std::uint16_t>(position.due - first);
+    change.form = form;
+    change.head = static_cast<std::uint8_t>(position.head & 0xf);
+    if constexpr (form == Form::text) {
       std::uint64_t size = 0;
-      if (as_written || !read_number(position.next, chain.end, size)) return Outcome::corrupt;
+      if (change.as_written() || !read_number(position.next, chain.end, size))
+        return Outcome::corrupt;
       if (!pass(position.next, chain.end, size)) return Outcome::corrupt;
-    } else {
-      if (!pass(position.next, chain.end, as_written ? chain.length : packed))
+    } else if constexpr (form != Form::scalar) {
+      if (!pass(position.next, chain.end, change.as_written() ? chain.length : packed))
         return Outcome::corrupt;
     }
-    collected_.push_back(change);
+    if constexpr (form == Form::vector) {
+      if (!change.as_written() && chain.length <= widest_bits)
+        change.bits = packed_bits(change.bytes, chain.length);
+    }
     if (!read_head<form>(chain, position)) return Outcome::corrupt;
   }
   positions_[place] = position;

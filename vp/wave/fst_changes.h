@@ -25,11 +25,21 @@ class FstChanges {
     std::uint32_t length;  ///< characters of a value that is written as it is
   };
   struct Change {
-    const char* value;  ///< where the bytes of the value begin; null of a scalar
+    /// Of packed vectors of up to 64 bits `bits`; else `bytes`, where the value begins. A scalar
+    /// has neither.
+    union {
+      std::uint64_t bits;
+      const char* bytes;
+    };
     std::uint32_t net;
     std::uint16_t instant;  ///< counts from the start of the span
-    bool as_written;        ///< characters, not bits
-    std::uint8_t state;     ///< of a scalar: 0 or 1, or a place in fst::letters
+    Form form;
+    std::uint8_t head;  ///< as in the file: how it is written, and a scalar's value
+
+    /// In characters, not in bits.
+    bool as_written() const { return (head & 1) != 0; }
+    /// Of a scalar: 0, 1, or 2 and the place in fst::letters.
+    unsigned state() const { return as_written() ? 2 + (head >> 1 & 7u) : head >> 1 & 1u; }
   };
   struct Range {
     const Change* first;
@@ -37,6 +47,9 @@ class FstChanges {
     const Change* begin() const { return first; }
     const Change* end() const { return last; }
   };
+
+  /// A packed vector is `bits` in its Change. Others would cost a miss of the cache each.
+  static constexpr std::uint32_t widest_bits = 64;
 
   /// What a text says.
   static std::string_view text(const Change& change);
@@ -56,15 +69,18 @@ class FstChanges {
 
  private:
   static constexpr std::size_t longest_span = std::size_t{1} << 16;
-  static constexpr std::size_t most_changes = std::size_t{1} << 15;
+  /// Changes that are sorted at once: some of each chain, so that coming back to it pays.
+  static constexpr std::size_t fewest_sorted = std::size_t{1} << 15;
+  static constexpr std::size_t most_sorted = std::size_t{1} << 18;
+  static constexpr std::size_t sorted_of_chain = 4;
   static constexpr std::size_t first_span = std::size_t{1} << 8;
-  static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
 
   /// Where the reading of a chain is: behind the head of the change that is due.
   struct Position {
     const char* next;
     std::uint64_t head;
-    std::uint64_t due;  ///< instant; `never` behind the last change
+    std::uint32_t due;  ///< instant; `never` behind the last change
   };
   enum class Outcome : std::uint8_t { whole, too_many, corrupt };
 
@@ -78,10 +94,11 @@ class FstChanges {
 
   std::size_t instants_ = 0;
   std::size_t span_ = first_span;
-  std::size_t first_ = 0, end_ = 0;  ///< of the span that is sorted
+  std::size_t limit_ = fewest_sorted;  ///< of changes in a span of several instants
+  std::size_t first_ = 0, end_ = 0;    ///< of the span that is sorted
   std::vector<Chain> chains_;
   std::vector<Position> positions_;  ///< by chain
-  std::vector<std::uint64_t> due_;   ///< by chain: the instant of its position, to look at quickly
+  std::vector<std::uint32_t> due_;   ///< by chain: the instant of its position, to look at quickly
   std::vector<std::pair<std::uint32_t, Position>> before_;  ///< of the chains read in this span
   std::vector<Change> collected_, sorted_;
   std::vector<std::uint32_t> starts_;  ///< by instant of the span, in `sorted_`

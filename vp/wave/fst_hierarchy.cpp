@@ -40,7 +40,8 @@ void FstReader::read_hierarchy() {
     const std::uint8_t tag = cursor.byte();
     if (tag == fst::scope) {
       const std::uint8_t type = cursor.byte();  // module, task, process …
-      if (scopes.size() == deepest_scope) cursor.fail("has more than 1000 scopes inside each other");
+      if (scopes.size() == deepest_scope)
+        cursor.fail("has more than 1000 scopes inside each other");
       const std::string name = clean_name(cursor.text());
       cursor.text();  // its component
       scopes.push_back(

@@ -1,6 +1,7 @@
 #include "fst_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -15,6 +16,21 @@ namespace {
 
 /// Bytes that are read at once: chains of one block lie side by side.
 constexpr std::uint64_t window_size = 1 << 18;
+
+/// What a scalar can be: 0, 1 and the letters.
+constexpr std::size_t scalar_states = 2 + fst::letters.size();
+std::array<WaveValue, scalar_states> scalar_values() {
+  std::array<WaveValue, scalar_states> values;
+  for (std::size_t state = 0; state < values.size(); ++state) {
+    WaveValue& value = values[state];
+    value.plain = state < 2;
+    value.text =
+        value.plain ? std::string_view("01").substr(state, 1) : fst::letters.substr(state - 2, 1);
+    value.known = value.plain || value.text == "h" || value.text == "l";
+    value.bits = value.text == "1" || value.text == "h" ? 1 : 0;
+  }
+  return values;
+}
 
 std::uint64_t swapped(std::uint64_t bits, bool swap) {
   return swap ? __builtin_bswap64(bits) : bits;
@@ -53,7 +69,7 @@ std::uint64_t FstReader::block_before(std::uint64_t steps) {
   return after == starts_.begin() ? 0 : static_cast<std::uint64_t>(after - starts_.begin()) - 1;
 }
 
-void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler) {
+void FstReader::read(const std::vector<bool>& selected, WaveClock& clock, WaveHandler& handler) {
   needs_texts_ = handler.needs_texts();
   bool entered = entry_.has_value();
   if (entered) {
@@ -66,14 +82,14 @@ void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHand
   }
   for (;;) {
     if (open_) {
-      if (!hand_over_block(at, selected, handler)) return;
+      if (!hand_over_block(clock, selected, handler)) return;
       open_ = false;
     }
     if (block_ == file_.changes().size()) break;
     open_block(file_.changes()[block_++], selected, std::exchange(entered, false));
   }
   const std::uint64_t end = file_.is_finished() ? file_.end_time() : block_end_;
-  if (!file_.changes().empty() && end > block_end_) at(end);
+  if (!file_.changes().empty() && end > block_end_) clock.reach(end);
 }
 
 void FstReader::open_block(const fst::File::Section& section, const std::vector<bool>& selected,
@@ -195,17 +211,19 @@ void FstReader::unpack_chains(const std::vector<Place>& places, char method,
     wanted[places[i].same_as != 0 ? places[i].same_as - 1 : i] = true;
   }
   unpacked_.clear();
-  std::string window;
-  std::uint64_t window_at = 0;
+  std::uint64_t window_at = 0, window_end = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place& place = places[i];
     if (!wanted[i] || place.at == 0) continue;
-    if (place.at < window_at || place.at + place.size > window_at + window.size()) {
+    if (place.at < window_at || place.at + place.size > window_end) {
       window_at = place.at;
-      window = file_.read(window_at,
-                          std::max(place.size, std::min(window_size, file_.size() - window_at)));
+      const std::uint64_t size =
+          std::max(place.size, std::min(window_size, file_.size() - window_at));
+      window_end = window_at + size;
+      if (window_.size() < size) window_.resize(size);
+      file_.read(window_at, window_.data(), size);
     }
-    const auto packed = std::string_view(window).substr(place.at - window_at, place.size);
+    const auto packed = std::string_view(window_).substr(place.at - window_at, place.size);
     fst::Cursor cursor(file_, packed, place.at, "chain of changes");
     const std::uint64_t size = cursor.varint();
     const std::string_view content = packed.substr(cursor.consumed());
@@ -241,15 +259,15 @@ FstChanges::Chain FstReader::chain_of(std::uint32_t net, std::string_view bytes)
   return chain;
 }
 
-bool FstReader::hand_over_block(const Time& at, const std::vector<bool>& selected,
+bool FstReader::hand_over_block(WaveClock& clock, const std::vector<bool>& selected,
                                 WaveHandler& handler) {
   if (frame_due_) {
-    if (!std::exchange(announced_, true) && !at(block_start_)) return false;
+    if (!std::exchange(announced_, true) && !clock.reach(block_start_)) return false;
     hand_over_frame(selected, handler);
     frame_due_ = announced_ = false;
   }
   for (; instant_ < times_.size(); ++instant_, announced_ = false) {
-    if (!std::exchange(announced_, true) && !at(times_[instant_])) return false;
+    if (!std::exchange(announced_, true) && !clock.reach(times_[instant_])) return false;
     const auto changes = changes_.at(instant_);
     if (!changes) corrupt_changes();
     for (const FstChanges::Change& change : *changes) hand_over(change, handler);
@@ -285,55 +303,66 @@ void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& 
 }
 
 void FstReader::hand_over(const FstChanges::Change& change, WaveHandler& handler) {
-  const Net& form = nets_[change.net];
-  if (form.kind == WaveVariable::Kind::text) {
-    WaveValue value;
-    value.kind = form.kind;
-    value.known = true;
-    value.text = FstChanges::text(change);
-    handler.change(change.net, value);
-  } else if (form.kind == WaveVariable::Kind::real) {
-    // Packed are the eight bytes of a real that happen to be digits.
-    hand_over_real(change.net,
-                   change.as_written
-                       ? change.value
-                       : digits_of_byte[static_cast<unsigned char>(*change.value)].data(),
-                   handler);
-  } else if (change.as_written) {
-    const bool is_scalar = form.length() == 1;
-    hand_over_bits(change.net,
-                   is_scalar ? fst::letters.substr(change.state, 1)
-                             : std::string_view(change.value, form.length()),
-                   handler);
-  } else if (form.length() == 1) {
-    WaveValue value;
-    value.known = value.plain = true;
-    value.bits = change.state;
-    value.text = std::string_view("01").substr(value.bits, 1);
-    handler.change(change.net, value);
-  } else {
-    hand_over_packed(change, handler);
+  static const auto scalars = scalar_values();
+  switch (change.form) {
+    case FstChanges::Form::scalar:
+      handler.change(change.net, scalars[change.state()]);
+      break;
+    case FstChanges::Form::vector:
+      if (change.as_written()) {
+        hand_over_bits(change.net, {change.bytes, nets_[change.net].length()}, handler);
+      } else {
+        hand_over_packed(change, handler);
+      }
+      break;
+    case FstChanges::Form::real:
+      // Packed are the eight bytes of a real that happen to be digits.
+      hand_over_real(change.net,
+                     change.as_written()
+                         ? change.bytes
+                         : digits_of_byte[static_cast<unsigned char>(*change.bytes)].data(),
+                     handler);
+      break;
+    case FstChanges::Form::text: {
+      WaveValue value;
+      value.kind = WaveVariable::Kind::text;
+      value.known = true;
+      value.text = FstChanges::text(change);
+      handler.change(change.net, value);
+      break;
+    }
   }
 }
 
 void FstReader::hand_over_packed(const FstChanges::Change& change, WaveHandler& handler) {
   const Net& form = nets_[change.net];
   if (form.is_port) corrupt_changes();
-  const unsigned count = (form.width + 7) / 8;
-  unsigned __int128 all = 0;
-  for (unsigned i = 0; i < count; ++i) all = all << 8 | static_cast<unsigned char>(change.value[i]);
   WaveValue value;
   value.known = value.plain = true;
-  value.bits = static_cast<std::uint64_t>(all >> (count * 8 - form.width));
-  if (needs_texts_ || form.width > 64) {
+  if (form.width <= FstChanges::widest_bits) {
+    value.bits = change.bits;
+    if (needs_texts_) value.text = digits_of(value.bits, form.width);
+  } else {
+    const unsigned count = (form.width + 7) / 8;
     text_.resize(std::size_t{count} * 8);
     for (unsigned i = 0; i < count; ++i) {
-      const auto byte = static_cast<unsigned char>(change.value[i]);
+      const auto byte = static_cast<unsigned char>(change.bytes[i]);
       std::memcpy(&text_[std::size_t{i} * 8], digits_of_byte[byte].data(), 8);
     }
     value.text = std::string_view(text_).substr(0, form.width);
+    for (const char digit : value.text.substr(form.width - 64))
+      value.bits = value.bits << 1 | (digit & 1);
   }
   handler.change(change.net, value);
+}
+
+std::string_view FstReader::digits_of(std::uint64_t bits, unsigned width) {
+  constexpr unsigned most = 64;
+  text_.resize(most);
+  for (unsigned i = 0; i < most / 8; ++i)
+    std::memcpy(&text_[std::size_t{i} * 8],
+                digits_of_byte[bits >> (most - 8 - i * 8) & 0xff].data(), 8);
+  return std::string_view(text_).substr(most - width);
 }
 
 void FstReader::hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler) {

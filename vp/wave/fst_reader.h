@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,9 +27,6 @@ class FstReader {
     /// Characters of a value that is written as it is.
     std::size_t length() const { return is_port ? std::size_t{width} * 3 + 2 : width; }
   };
-  /// Takes a time in the file's steps; false: enough for now.
-  using Time = std::function<bool(std::uint64_t)>;
-
   /// Reads the hierarchy. Throws InputError.
   explicit FstReader(const std::filesystem::path& file);
 
@@ -48,8 +44,8 @@ class FstReader {
   /// The next read() begins with the values at the start of a block, or of an earlier one.
   void enter(std::uint64_t block) { entry_ = block; }
   /// Hands over the changes of the selected nets, from where the last call stopped to the end or
-  /// until `at` has enough. Throws InputError.
-  void read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler);
+  /// until the clock has enough. Throws InputError.
+  void read(const std::vector<bool>& selected, WaveClock& clock, WaveHandler& handler);
 
  private:
   /// Where the chain of a handle is among the bytes of a block.
@@ -76,8 +72,9 @@ class FstReader {
                      const std::vector<bool>& selected);
   FstChanges::Chain chain_of(std::uint32_t net, std::string_view bytes) const;
   void hand_over_frame(const std::vector<bool>& selected, WaveHandler& handler);
-  bool hand_over_block(const Time& at, const std::vector<bool>& selected, WaveHandler& handler);
+  bool hand_over_block(WaveClock& clock, const std::vector<bool>& selected, WaveHandler& handler);
   void hand_over(const FstChanges::Change& change, WaveHandler& handler);
+  std::string_view digits_of(std::uint64_t bits, unsigned width);
   void hand_over_packed(const FstChanges::Change& change, WaveHandler& handler);
   void hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler);
   void hand_over_real(std::uint32_t net, const char* bytes, WaveHandler& handler);
@@ -102,6 +99,7 @@ class FstReader {
   std::uint64_t block_start_ = 0, block_end_ = 0;
   std::vector<std::uint64_t> times_;
   std::string frame_;
+  std::string window_;  ///< bytes of the file, read at once
   ByteArena unpacked_;  ///< chains point into it
   FstChanges changes_;
   bool needs_texts_ = true;  ///< of the handler

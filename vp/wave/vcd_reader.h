@@ -24,12 +24,7 @@ class VcdReader {
     bool selected;
     unsigned width;
   };
-  /// Takes a time in the file's steps. False: enough for now.
-  class Clock {
-   public:
-    virtual ~Clock() = default;
-    virtual bool reach(std::uint64_t steps) = 0;
-  };
+  using Clock = WaveClock;
 
   /// Reads the header. Throws InputError.
   VcdReader(const std::filesystem::path& file, const WaveOptions& options, WaveNotes& notes);

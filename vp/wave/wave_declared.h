@@ -25,6 +25,13 @@ struct WaveDeclared {
   std::uint64_t line = 0;  ///< of a VCD
 };
 
+/// Takes a time in the file's steps. False: enough for now.
+class WaveClock {
+ public:
+  virtual ~WaveClock() = default;
+  virtual bool reach(std::uint64_t steps) = 0;
+};
+
 /// Takes the range off the end of the path: " [7:0]", " [3]", "[7:0]". A single index right behind
 /// the name stays in it: it is an element of an array.
 void take_range(WaveDeclared& declared);

@@ -143,6 +143,8 @@ class WaveReader {
   std::vector<bool> selected_;          ///< by net
   std::vector<bool> wanted_;            ///< by net of the file
   std::uint64_t timescale_fs_ = 0;
+  std::uint64_t ps_per_step_ = 0;  ///< 0: steps are no whole ps
+  std::uint64_t latest_steps_ = 0;
   std::uint64_t now_ps_ = 0;
   unsigned below_ps_ = 0;
   bool started_ = false;  ///< a time was read
