@@ -82,8 +82,12 @@ const trace::Vocabulary& words_of(const TraceCommandOptions& options) {
 
 int list(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
   TraceFile file = opened(options);
-  const trace::Listing listing = trace::listing(file, vp::TraceFilter(options.filter));
-  out << (options.json ? trace::tables_as_json(listing.tables()) : listing.text());
+  const trace::Listing listing(file, vp::TraceFilter(options.filter));
+  if (options.json) {
+    out << trace::tables_as_json(listing.tables());
+  } else {
+    listing.write(out);
+  }
   warn_of(file, err);
   return done;
 }
@@ -313,7 +317,7 @@ int view(const TraceCommandOptions& options, std::ostream& out, std::ostream& er
   trace::Viewing asked;
   asked.file = std::filesystem::absolute(options.file).lexically_normal().string();
   for (const std::string& name : options.signals)
-    asked.signals.push_back(file.variable(vp::find_path(name, file.paths(), "view: ")).path);
+    asked.signals.push_back(file.reader().paths()[vp::find_path(name, file.paths(), "view: ")]);
   if (options.marker) {
     asked.steps =
         trace::steps_of(parse_moment(*options.marker, "--at"), file.reader().timescale_fs());

@@ -23,7 +23,7 @@ class Cutter final : private WindowReader {
  public:
   Cutter(TraceFile& file, const std::string& to, const CutOptions& options)
       : WindowReader(file, options), nets_(file.reader().nets()) {
-    options.filter.check(file.paths(), {});
+    options.filter.check(file.paths());
     writer_ = vp::open_wave_writer(to);
     if (counts_femtoseconds()) writer_->count_femtoseconds();
     for (std::uint32_t i = 0; i < file.paths().size(); ++i) {

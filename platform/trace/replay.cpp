@@ -41,13 +41,14 @@ NameMap read_name_map(const std::string& file) {
 
 TraceFile::TraceFile(const std::string& file, const NameMap& map, const vp::WaveOptions& options)
     : name_(file), reader_(file, options) {
-  for (const vp::WaveVariable& variable : reader_.variables()) paths_.push_back(variable.path);
   if (map.entries.empty()) return;
-  const std::vector<std::string> theirs = paths_;
+  map_ = reader_.paths();
   for (const NameMap::Entry& entry : map.entries) {
     const std::string where =
         "map '" + map.file + "', line " + std::to_string(entry.line) + ": in '" + file + "' ";
-    paths_[vp::find_path(entry.theirs, theirs, where)] = entry.ours;
+    const std::uint32_t place = vp::find_path(entry.theirs, reader_.paths(), where);
+    map_->rename(place, entry.ours);
+    mapped_[entry.ours] = place;
   }
 }
 
@@ -58,13 +59,13 @@ std::vector<std::string> warnings_of(const TraceFile& file) {
   return warnings;
 }
 
-int TraceFile::find(const std::string& path) const {
-  if (by_path_.empty()) {
-    for (std::size_t i = 0; i < paths_.size(); ++i)
-      by_path_.emplace(paths_[i], static_cast<int>(i));
-  }
-  const auto found = by_path_.find(path);
-  return found == by_path_.end() ? -1 : found->second;
+std::int64_t TraceFile::find(const std::string& path) const {
+  const auto mapped = mapped_.find(path);
+  if (mapped != mapped_.end()) return mapped->second;
+  const std::int64_t place = reader_.place_of(path);
+  // One that the map names otherwise has its own name no more.
+  const bool is_ours = place >= 0 && paths()[static_cast<std::size_t>(place)] == path;
+  return is_ours ? place : -1;
 }
 
 namespace {
@@ -104,7 +105,7 @@ Replay::Slot Replay::watch(std::uint32_t variable) {
 }
 
 std::optional<Replay::Slot> Replay::follow(const std::string& path) {
-  const int variable = file_.find(path);
+  const std::int64_t variable = file_.find(path);
   if (variable < 0) return std::nullopt;
   return watch(static_cast<std::uint32_t>(variable));
 }

@@ -39,17 +39,17 @@ class TraceFile {
   vp::WaveReader& reader() { return reader_; }
   const vp::WaveReader& reader() const { return reader_; }
   /// By variable: our name where the map has one.
-  const std::vector<std::string>& paths() const { return paths_; }
+  const vp::WavePaths& paths() const { return map_ ? *map_ : reader_.paths(); }
   const vp::WaveVariable& variable(std::uint32_t i) const { return reader_.variables()[i]; }
   /// The variable called `path`; -1 if missing.
-  int find(const std::string& path) const;
+  std::int64_t find(const std::string& path) const;
   const std::string& name() const { return name_; }
 
  private:
   std::string name_;
   vp::WaveReader reader_;
-  std::vector<std::string> paths_;
-  mutable std::unordered_map<std::string_view, int> by_path_;  ///< filled when it is asked for
+  std::optional<vp::WavePaths> map_;  ///< the paths under our names, if some have other ones
+  std::unordered_map<std::string, std::uint32_t> mapped_;
 };
 
 /// What is odd about a trace, as "trace 't.vcd' has no $timescale …".

@@ -63,8 +63,8 @@ void FstReader::read_hierarchy() {
       cursor.fail("has an entry of an unknown type");
     }
   }
-  for (const WaveDeclared& declared : declared_) {
-    if (nets_[declared.variable.net].width > widest_signal) {
+  for (const WaveVariable& variable : declared_.variables) {
+    if (nets_[variable.net].width > widest_signal) {
       cursor.fail("declares a signal of more than 1048576 bits");
     }
   }
@@ -76,11 +76,11 @@ void FstReader::read_variable(std::uint8_t type, fst::Cursor& cursor, const Scop
   WaveDeclared declared;
   WaveVariable& variable = declared.variable;
   const std::string name = clean_name(cursor.text());
-  variable.path = scope.path + name;
-  path_bytes_ += variable.path.size();
+  declared.path = scope.path + name;
+  path_bytes_ += declared.path.size();
   const std::uint64_t length = cursor.varint(), alias = cursor.varint();
   if (name.empty()) cursor.fail("has a signal without a name");
-  if (variable.path.size() > longest_path || path_bytes_ > largest_paths) {
+  if (declared.path.size() > longest_path || path_bytes_ > largest_paths) {
     cursor.fail("has names that are too long");
   }
   if (alias == 0) {
@@ -104,7 +104,7 @@ void FstReader::read_variable(std::uint8_t type, fst::Cursor& cursor, const Scop
   variable.enumeration = enumerations_.take();
   take_range(declared);
   if (scope.is_array) declared.may_join = false;
-  declared_.push_back(std::move(declared));
+  declared_.add(declared);
 }
 
 }  // namespace vp

@@ -32,7 +32,7 @@ class FstReader {
 
   const std::vector<Net>& nets() const { return nets_; }
   /// In the order of the file.
-  std::vector<WaveDeclared>& declared() { return declared_; }
+  WaveDeclarations& declared() { return declared_; }
   std::vector<WaveEnumeration>& enumerations() { return enumerations_.all; }
   std::uint64_t timescale_fs() const { return timescale_fs_; }
   std::uint64_t bytes() const { return file_.size(); }
@@ -82,7 +82,7 @@ class FstReader {
 
   fst::File file_;
   std::vector<Net> nets_;
-  std::vector<WaveDeclared> declared_;
+  WaveDeclarations declared_;
   WaveEnumerations enumerations_;
   std::uint64_t timescale_fs_ = 1;
   std::uint64_t handles_ = 0;  ///< declared so far

@@ -86,7 +86,7 @@ void VcdReader::read_header() {
       word.remove_prefix(3);
       if (word.empty()) word = next(header);
     }
-    if (!declared_.empty() && begins_values(word)) {
+    if (declared_.size() != 0 && begins_values(word)) {
       window_.cursor = word.data();
       note("has no $enddefinitions: the header ends with the first value");
       break;
@@ -100,7 +100,7 @@ void VcdReader::read_header() {
            (first ? ": this is no VCD" : " in the header"));
     }
   }
-  if (declared_.empty()) fail("the header declares no signal");
+  if (declared_.size() == 0) fail("the header declares no signal");
   if (timescale_fs_ == 0) {
     timescale_fs_ = options_.timescale_fs != 0 ? options_.timescale_fs : fs_per_ns;
     if (options_.timescale_fs == 0)
@@ -220,16 +220,16 @@ void VcdReader::read_variable() {
   if (!read_size(size, width) || width > widest_signal)
     fail("the size " + shown(size) + " of signal " + shown(name) + " is not 0 to 1048576");
   variable.width = !is_bits || variable.is_event ? 1 : static_cast<unsigned>(width);
-  if (!scopes_.empty()) variable.path = scopes_.back().path;
-  variable.path += clean_name(name);
-  path_bytes_ += variable.path.size();
-  if (variable.path.size() > longest_path || path_bytes_ > largest_paths)
+  if (!scopes_.empty()) declared.path = scopes_.back().path;
+  declared.path += clean_name(name);
+  path_bytes_ += declared.path.size();
+  if (declared.path.size() > longest_path || path_bytes_ > largest_paths)
     fail("names of more than 64 KiB, or of 1 GiB together");
   variable.net = declare_net(code, variable.kind, variable.width, variable.is_event);
   variable.enumeration = enumerations_.take();
   take_range(declared);
   if (!scopes_.empty() && scopes_.back().is_array) declared.may_join = false;
-  declared_.push_back(std::move(declared));
+  declared_.add(declared);
 }
 
 std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind kind, unsigned width,
@@ -267,13 +267,19 @@ std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind k
 void VcdReader::finish_declarations() {
   scopes_.clear();
   if (!retyped_) return;
-  for (WaveDeclared& declared : declared_) {
-    const Net& net = nets_[declared.variable.net];
-    if (net.kind != declared.variable.kind || net.width != declared.variable.width)
-      declared.may_join = false;
-    declared.variable.kind = net.kind;
-    declared.variable.width = net.width;
-    declared.variable.is_event = net.is_event;
+  std::vector<WaveVariable>& variables = declared_.variables;
+  const auto changes = [&](const WaveDeclarations::Range& range) {
+    const WaveVariable& variable = variables[range.place];
+    const Net& net = nets_[variable.net];
+    return net.kind != variable.kind || net.width != variable.width;
+  };
+  std::vector<WaveDeclarations::Range>& ranges = declared_.ranges;
+  ranges.erase(std::remove_if(ranges.begin(), ranges.end(), changes), ranges.end());
+  for (WaveVariable& variable : variables) {
+    const Net& net = nets_[variable.net];
+    variable.kind = net.kind;
+    variable.width = net.width;
+    variable.is_event = net.is_event;
   }
 }
 

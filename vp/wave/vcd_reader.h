@@ -30,7 +30,7 @@ class VcdReader {
   VcdReader(const std::filesystem::path& file, const WaveOptions& options, WaveNotes& notes);
 
   const std::vector<Net>& nets() const { return nets_; }
-  std::vector<WaveDeclared>& declared() { return declared_; }
+  WaveDeclarations& declared() { return declared_; }
   std::vector<WaveEnumeration>& enumerations() { return enumerations_.all; }
   std::uint64_t timescale_fs() const { return timescale_fs_; }
   std::uint64_t bytes() const { return window_.bytes(); }
@@ -113,7 +113,7 @@ class VcdReader {
   bool single_ = false;          ///< a window is left behind its first word
 
   std::vector<Net> nets_;
-  std::vector<WaveDeclared> declared_;
+  WaveDeclarations declared_;
   std::vector<std::uint32_t> by_short_code_;  ///< net + 1; 0: none
   CodeTable by_long_code_;                    ///< the same
   struct Scope {

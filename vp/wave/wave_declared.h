@@ -18,11 +18,47 @@ constexpr unsigned widest_signal = 1 << 20;
 
 /// A variable as a file declares it.
 struct WaveDeclared {
+  std::string path;
   WaveVariable variable;   ///< its net is one of the file
   bool may_join = false;   ///< its bits may be a part of a vector
   bool is_single = false;  ///< spelt with one index: "q [3]"
   std::int64_t left = 0, right = 0;
   std::uint64_t line = 0;  ///< of a VCD
+};
+
+/// The variables that a file declares, in its order: a few bytes each, as there may be millions.
+struct WaveDeclarations {
+  /// The bits that a name says it has, if they may be a part of a vector.
+  struct Range {
+    std::uint32_t place;  ///< of the variable
+    bool is_single;
+    std::int64_t left, right;
+  };
+  void add(const WaveDeclared& declared);
+  std::size_t size() const { return variables.size(); }
+
+  WavePaths paths;
+  std::vector<WaveVariable> variables;
+  std::vector<Range> ranges;         ///< by place
+  std::vector<std::uint32_t> lines;  ///< of a VCD, by variable
+};
+
+/// Finds paths by their hash.
+class NameTable {
+ public:
+  /// Of up to `most` paths.
+  explicit NameTable(std::size_t most);
+  /// The place of `path` among `paths`, as it was put in; -1 if missing.
+  std::int64_t find(std::string_view path, const WavePaths& paths) const;
+  /// The same; if it is missing it is put in with `place`.
+  std::int64_t find_or_put(std::string_view path, const WavePaths& paths, std::size_t place);
+
+ private:
+  std::size_t slot_of(std::string_view path, std::size_t hash, const WavePaths& paths) const;
+  std::uint32_t tag_of(std::size_t hash) const;
+
+  std::uint32_t place_mask_ = 1;  ///< other bits are of the hash: most paths are told apart by them
+  std::vector<std::uint32_t> places_;  ///< + 1
 };
 
 /// Takes a time in the file's steps. False: enough for now.
@@ -86,17 +122,14 @@ struct WavePart {
 
 /// The variables of a file under names of their own, and the vectors that are made of several.
 struct WaveNames {
+  WavePaths paths;
   std::vector<WaveVariable> variables;
   std::vector<std::vector<WavePart>> joined;  ///< by net, less `nets`; the leftmost part first
-  std::vector<std::uint32_t> table;           ///< places in `variables` + 1, by hash of the path
+  NameTable table;
 };
 
 /// `nets`: that the file has. Adds to `notes` what it had to rename.
-WaveNames named(std::vector<WaveDeclared> declared, std::uint32_t nets, WaveNotes& notes);
-
-/// The place of a path in names made by named(); -1 if missing.
-std::int64_t place_of(std::string_view path, const std::vector<WaveVariable>& variables,
-                      const std::vector<std::uint32_t>& table);
+WaveNames named(WaveDeclarations declared, std::uint32_t nets, WaveNotes& notes);
 
 /// Hands over vectors made of parts, once an instant.
 class WaveJoiner final : public WaveHandler {

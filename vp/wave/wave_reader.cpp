@@ -55,7 +55,7 @@ WaveReader::WaveReader(const std::filesystem::path& file, const WaveOptions& opt
 
 WaveReader::~WaveReader() = default;
 
-void WaveReader::declare(std::vector<WaveDeclared> declared) {
+void WaveReader::declare(WaveDeclarations declared) {
   constexpr auto latest_fs =
       static_cast<unsigned __int128>(std::numeric_limits<std::int64_t>::max()) * fs_per_ps;
   constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
@@ -65,7 +65,8 @@ void WaveReader::declare(std::vector<WaveDeclared> declared) {
   const auto nets = static_cast<std::uint32_t>(wanted_.size());
   WaveNames names = named(std::move(declared), nets, *notes_);
   variables_ = std::move(names.variables);
-  by_name_ = std::move(names.table);
+  paths_ = std::move(names.paths);
+  by_name_ = std::make_unique<NameTable>(std::move(names.table));
   selected_.resize(nets + names.joined.size());
   if (!names.joined.empty()) joiner_ = std::make_unique<WaveJoiner>(std::move(names.joined), nets);
 }
@@ -78,8 +79,12 @@ std::vector<std::string> WaveReader::warnings() const {
   return notes_->texts();
 }
 
-const WaveVariable* WaveReader::find(const std::string& path) const {
-  const std::int64_t place = place_of(path, variables_, by_name_);
+std::int64_t WaveReader::place_of(std::string_view path) const {
+  return by_name_->find(path, paths_);
+}
+
+const WaveVariable* WaveReader::find(std::string_view path) const {
+  const std::int64_t place = place_of(path);
   return place < 0 ? nullptr : &variables_[static_cast<std::size_t>(place)];
 }
 

@@ -219,10 +219,10 @@ BOOST_AUTO_TEST_CASE(a_list_says_what_is_in_a_trace) {
                                "t.clk  1 bit  3 values\nt.u.clk  1 bit  = t.clk\n"
                                "t.s  2 bits  1 value  idle run\nt.go  event  2 values\n"
                                "t.w  text  0 values\n";
-  BOOST_TEST(listing(file, vp::TraceFilter(std::vector<std::string>{})).text() == expected);
+  BOOST_TEST(Listing(file, vp::TraceFilter(std::vector<std::string>{})).text() == expected);
   const Text empty(one);
   TraceFile none(empty.file);
-  BOOST_TEST(listing(none, vp::TraceFilter(std::vector<std::string>{})).text() ==
+  BOOST_TEST(Listing(none, vp::TraceFilter(std::vector<std::string>{})).text() ==
              empty.file + ": steps of 1 ns, no values, 1 signal, 0 values\na  1 bit  0 values\n");
   BOOST_TEST(exact_time(1000, 0) == "1 ns");
   BOOST_TEST(exact_time(0, 300) == "300 fs");
@@ -239,7 +239,7 @@ BOOST_AUTO_TEST_CASE(a_cut_file_is_read_to_the_cut_by_every_tool) {
            warnings[0].find("was cut off in the middle") != std::string::npos;
   };
   TraceFile listed(text.file);
-  BOOST_TEST(listing(listed, vp::TraceFilter(std::vector<std::string>{})).last == "20 ns");
+  BOOST_TEST(Listing(listed, vp::TraceFilter(std::vector<std::string>{})).last() == "20 ns");
   BOOST_TEST(warns(listed));
   TraceFile copied(text.file);
   cut(copied, text.folder / "o.vcd");
