@@ -132,19 +132,24 @@ std::uint64_t FstReader::read_times(const fst::File::Section& section) {
   const std::uint64_t unpacked = cursor.u64(), packed = cursor.u64(), count = cursor.u64();
   if (packed > section.size - tail_size - length_size) cursor.fail("is longer than its block");
   const std::uint64_t at = section.end() - tail_size - packed;
-  const std::string bytes = file_.read_packed(at, packed, unpacked);
-  if (count > bytes.size() || count > std::numeric_limits<std::uint32_t>::max()) {
+  times_ = file_.read_packed(at, packed, unpacked);
+  if (count > times_.size() || count > std::numeric_limits<std::uint32_t>::max()) {
     cursor.fail("is shorter than it says");
   }
-  fst::Cursor deltas(file_, bytes, at, "table of times");
-  times_.resize(count);
-  std::uint64_t now = 0;
-  for (std::uint64_t& time : times_) {
-    const std::uint64_t delta = deltas.varint();
-    if (delta > std::numeric_limits<std::uint64_t>::max() - now) deltas.fail("overflows");
-    time = now += delta;
-  }
+  times_at_ = at;
+  times_taken_ = 0;
+  now_ = 0;
+  instants_ = count;
   return at - length_size;
+}
+
+std::uint64_t FstReader::next_time() {
+  fst::Cursor cursor(file_, std::string_view(times_).substr(times_taken_), times_at_,
+                     "table of times");
+  const std::uint64_t step = cursor.varint();
+  times_taken_ += cursor.consumed();
+  if (step > std::numeric_limits<std::uint64_t>::max() - now_) cursor.fail("overflows");
+  return now_ += step;
 }
 
 // The table has an entry for each handle in turn: the distance to the next chain, or whose chain
@@ -203,7 +208,7 @@ std::vector<FstReader::Place> FstReader::read_places(const fst::File::Section& s
 
 void FstReader::unpack_chains(const std::vector<Place>& places, char method,
                               const std::vector<bool>& selected) {
-  changes_.begin(times_.size());
+  changes_.begin(instants_);
   std::vector<std::string_view> chains(places.size());
   std::vector<bool> wanted(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -266,8 +271,8 @@ bool FstReader::hand_over_block(WaveClock& clock, const std::vector<bool>& selec
     hand_over_frame(selected, handler);
     frame_due_ = announced_ = false;
   }
-  for (; instant_ < times_.size(); ++instant_, announced_ = false) {
-    if (!std::exchange(announced_, true) && !clock.reach(times_[instant_])) return false;
+  for (; instant_ < instants_; ++instant_, announced_ = false) {
+    if (!std::exchange(announced_, true) && !clock.reach(next_time())) return false;
     const auto changes = changes_.at(instant_);
     if (!changes) corrupt_changes();
     for (const FstChanges::Change& change : *changes) hand_over(change, handler);

@@ -66,6 +66,7 @@ class FstReader {
                   bool entered);
   /// Returns where the table of chains ends.
   std::uint64_t read_times(const fst::File::Section& section);
+  std::uint64_t next_time();
   std::vector<Place> read_places(const fst::File::Section& section, std::uint64_t changes_at,
                                  std::uint64_t table_end, std::uint64_t handles) const;
   void unpack_chains(const std::vector<Place>& places, char method,
@@ -97,7 +98,10 @@ class FstReader {
   std::optional<std::uint64_t> entry_;
   std::vector<std::uint64_t> starts_;  ///< times of the blocks, once they are asked for
   std::uint64_t block_start_ = 0, block_end_ = 0;
-  std::vector<std::uint64_t> times_;
+  std::string times_;           ///< a number for each instant: the steps since the one before
+  std::uint64_t times_at_ = 0;  ///< in the file
+  std::size_t times_taken_ = 0, instants_ = 0;
+  std::uint64_t now_ = 0;  ///< of `instant_`, once it was announced
   std::string frame_;
   std::string window_;  ///< bytes of the file, read at once
   ByteArena unpacked_;  ///< chains point into it

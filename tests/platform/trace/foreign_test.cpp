@@ -100,7 +100,7 @@ std::string values_at(const std::string& file, std::vector<std::uint64_t> times,
                       const vp::WaveOptions& reading = {}) {
   TraceFile trace(file, {}, reading);
   ValuesOptions options;
-  options.signals = {trace.paths().front()};
+  options.signals = {trace.paths()[0]};
   options.at_ps = std::move(times);
   std::string text;
   values(trace, options, [&](const ValueRow& row) {
