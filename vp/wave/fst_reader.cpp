@@ -333,6 +333,7 @@ void FstReader::hand_over(const FstChanges::Change& change, WaveHandler& handler
       value.kind = WaveVariable::Kind::text;
       value.known = true;
       value.text = FstChanges::text(change);
+      if (!is_utf8(value.text)) value.text = text_ = in_utf8(value.text);
       handler.change(change.net, value);
       break;
     }

@@ -107,6 +107,7 @@ void VcdReader::read_text(std::string_view text, std::uint32_t net, WaveHandler&
   if (nets_[net].kind != WaveVariable::Kind::text)
     note("a signal of bits or numbers has words as values: it is a text from there on");
   unescape(text, text_);
+  if (!is_utf8(text_)) text_ = in_utf8(text_);
   WaveValue value;
   value.kind = WaveVariable::Kind::text;
   value.known = true;

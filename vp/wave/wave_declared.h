@@ -93,7 +93,10 @@ void unescape(std::string_view from, std::string& to);
 /// For messages: what a file says may be anything.
 std::string shown(std::string_view word);
 
-/// The name in UTF-8: bytes that are no UTF-8 are taken as Latin-1; control characters become '?'.
+bool is_utf8(std::string_view text);
+/// The text in UTF-8: bytes that are no UTF-8 are taken as Latin-1.
+std::string in_utf8(std::string_view text);
+/// The same of a name, whose control characters become '?'.
 std::string clean_name(std::string_view name);
 
 /// What is odd about a file, each kind once with its count and first line.

@@ -115,11 +115,11 @@ void WaveEnumerations::attribute(std::string_view text, std::uint64_t handle) {
     std::from_chars(words[1].data(), words[1].data() + words[1].size(), count);
   }
   if (count == 0 || count > words.size() || words.size() < 2 + 2 * count) return;
-  WaveEnumeration table{words[0], {}};
+  WaveEnumeration table{in_utf8(words[0]), {}};
   for (std::size_t i = 0; i < count; ++i) {
     std::string word;
     unescape(words[2 + i], word);
-    table.words.emplace_back(words[2 + count + i], word);
+    table.words.emplace_back(words[2 + count + i], in_utf8(word));
   }
   place_of_[handle] = static_cast<std::uint32_t>(all.size());
   all.push_back(std::move(table));
@@ -172,23 +172,41 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+void add_latin1(std::string& text, unsigned char byte) {
+  text += static_cast<char>(0xc0 | byte >> 6);
+  text += static_cast<char>(0x80 | (byte & 0x3f));
+}
+
 }  // namespace
 
-std::string clean_name(std::string_view name) {
-  std::string clean;
-  while (!name.empty()) {
-    const auto first = static_cast<unsigned char>(name.front());
-    std::size_t length = utf8_length(name);
-    if (length == 0) {
-      length = 1;
-      clean += static_cast<char>(0xc0 | first >> 6);
-      clean += static_cast<char>(0x80 | (first & 0x3f));
-    } else if (first < ' ' || first == 0x7f) {
-      clean += '?';
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string in_utf8(std::string_view text) {
+  std::string result;
+  for (std::size_t length = 0; !text.empty(); text.remove_prefix(length)) {
+    length = utf8_length(text);
+    if (length != 0) {
+      result += text.substr(0, length);
     } else {
-      clean += name.substr(0, length);
+      add_latin1(result, static_cast<unsigned char>(text.front()));
+      length = 1;
     }
-    name.remove_prefix(length);
+  }
+  return result;
+}
+
+std::string clean_name(std::string_view name) {
+  std::string clean = in_utf8(name);
+  for (char& c : clean) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < ' ' || byte == 0x7f) c = '?';
   }
   return clean;
 }

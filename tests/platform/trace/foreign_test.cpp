@@ -229,6 +229,18 @@ BOOST_AUTO_TEST_CASE(a_list_says_what_is_in_a_trace) {
   BOOST_TEST(exact_time(2000, 5) == "2 ns 5 fs");
 }
 
+BOOST_AUTO_TEST_CASE(a_value_is_counted_if_it_is_another_one) {
+  const Text text(
+      "$timescale 1ns $end $var wire 1 ! a $end $var wire 4 \" v $end $var real 64 # r $end\n"
+      "$enddefinitions $end #0 1! bx \" r2.50 # #1 H! bxxxx \" r2.5 # #2 h! b00x \" r-2.5 #\n"
+      "#3 L! b0x \" #4 0! b01 \" #5 b1 \"\n");
+  TraceFile file(text.file);
+  const std::string listed = Listing(file, vp::TraceFilter(std::vector<std::string>{})).text();
+  BOOST_TEST(listed.find("a  1 bit  4 values\n") != std::string::npos, listed);
+  BOOST_TEST(listed.find("v  4 bits  3 values\n") != std::string::npos, listed);
+  BOOST_TEST(listed.find("r  real  2 values\n") != std::string::npos, listed);
+}
+
 BOOST_AUTO_TEST_CASE(a_cut_file_is_read_to_the_cut_by_every_tool) {
   const Text text(
       "$timescale 1ns $end $var wire 8 ! a $end $enddefinitions $end\n"
