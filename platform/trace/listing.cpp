@@ -19,16 +19,6 @@ std::string type_of(const vp::WaveVariable& variable) {
   return std::to_string(variable.width) + (variable.width == 1 ? " bit" : " bits");
 }
 
-/// Without the digits on the left that full_digits() restores.
-std::string_view shortest_digits(std::string_view digits) {
-  const auto is_restored = [&] {
-    return digits[0] == '0' ? digits[1] == '0' || digits[1] == '1'
-                            : digits[0] != '1' && digits[0] == digits[1];
-  };
-  while (digits.size() > 1 && is_restored()) digits.remove_prefix(1);
-  return digits;
-}
-
 /// Counts the values of each net that are not the one before.
 class ValueCounter final : public vp::WaveHandler {
  public:

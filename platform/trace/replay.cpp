@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -81,6 +82,19 @@ std::string word_for(const vp::WaveEnumeration& words, std::uint64_t bits) {
   return {};
 }
 
+/// Sets the number to that of known digits, which may be above 64 bits.
+void widen(vp::ExpressionValue& value, const std::string& text, unsigned width) {
+  std::string digits = vp::full_digits(text, width);
+  for (char& digit : digits) digit = digit == '1' || digit == 'h' ? '1' : '0';
+  digits.erase(0, std::min(digits.find('1'), digits.size()));
+  value.is_wide = true;
+  if (digits.size() <= 64) return;
+  value.number = 0;
+  for (const char digit : digits.substr(0, 64)) value.number = value.number * 2 + (digit - '0');
+  value.number = std::ldexp(value.number, static_cast<int>(digits.size() - 64));
+  value.digits = std::move(digits);
+}
+
 }  // namespace
 
 Replay::Replay(TraceFile& file) : file_(file), slot_of_net_(file.reader().nets(), -1) {}
@@ -93,7 +107,7 @@ Replay::Slot Replay::watch(std::uint32_t variable) {
     const vp::WaveEnumeration* words =
         v.enumeration == 0 ? nullptr : &file_.reader().enumerations()[v.enumeration - 1];
     const bool has_words = words || v.kind == vp::WaveVariable::Kind::text;
-    State state{variable, false, v.is_event, has_words, words, {}, {}};
+    State state{variable, false, v.is_event, has_words, v.width > 64, words, {}, {}};
     state.now.kind = state.before.kind = v.kind;
     if (v.is_event) {  // one that has not occurred did not occur
       state.now.known = state.before.known = true;
@@ -114,13 +128,14 @@ Replay::Slot Replay::watch(const std::string& name) {
   return watch(vp::find_path(name, file_.paths()));
 }
 
-vp::ExpressionValue Replay::number(const State& state, bool past) {
+vp::ExpressionValue Replay::number(const State& state, bool past) const {
   const Value& value = past ? state.before : state.now;
   vp::ExpressionValue result = vp::ExpressionValue::unknown();
   if (value.known && value.kind == vp::WaveVariable::Kind::real) {
     result = value.real;
   } else if (value.known && value.kind == vp::WaveVariable::Kind::bits) {
     result = value.bits;
+    if (state.is_wide) widen(result, value.text, file_.variable(state.variable).width);
   } else if (value.kind == vp::WaveVariable::Kind::text) {
     result.is_text = true;
     result.known = value.known;
@@ -161,7 +176,7 @@ bool Replay::finish_instant() {
     state.before.known = state.now.known;
     state.before.bits = state.now.bits;
     state.before.real = state.now.real;
-    if (keep_texts_ || state.now.kind == vp::WaveVariable::Kind::text) {
+    if (keeps_text(state, state.now.kind)) {
       state.before.text = state.now.text;
     }
   }
@@ -187,7 +202,7 @@ void Replay::change(std::uint32_t net, const vp::WaveValue& value) {
   state.now.known = value.known;
   state.now.bits = value.bits;
   state.now.real = value.real;
-  if (keep_texts_ || value.kind == vp::WaveVariable::Kind::text) {
+  if (keeps_text(state, value.kind)) {
     state.now.text.assign(value.text);
   }
 }
