@@ -249,7 +249,11 @@ std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind k
     place = &by_long_code_[code];
   }
   if (*place == 0) {
-    nets_.push_back({kind, is_event, false, width});
+    Net net{};
+    net.width = width & 0xffffff;
+    net.kind = kind;
+    net.is_event = is_event;
+    nets_.push_back(net);
     return (*place = static_cast<std::uint32_t>(nets_.size())) - 1;
   }
   Net& net = nets_[*place - 1];
@@ -257,7 +261,7 @@ std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind k
     note(
         "an identifier is declared with several types or sizes: it has the first type and the "
         "largest size");
-    net.width = std::max(net.width, width);
+    if (width > net.width) net.width = width & 0xffffff;
     retyped_ = true;
   }
   return *place - 1;

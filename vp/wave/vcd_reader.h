@@ -18,11 +18,12 @@ namespace vp {
 /// tools that write them.
 class VcdReader {
  public:
+  /// Four bytes, as there may be millions.
   struct Net {
-    WaveVariable::Kind kind;
-    bool is_event;
-    bool selected;
-    unsigned width;
+    unsigned width : 24;
+    WaveVariable::Kind kind : 2;
+    bool is_event : 1;
+    bool selected : 1;
   };
   using Clock = WaveClock;
 

@@ -39,8 +39,11 @@ struct WaveDeclarations {
 
   WavePaths paths;
   std::vector<WaveVariable> variables;
-  std::vector<Range> ranges;         ///< by place
-  std::vector<std::uint32_t> lines;  ///< of a VCD, by variable
+  std::vector<Range> ranges;  ///< by place
+  std::string lines;          ///< of a VCD: for each the lines since the one before
+
+ private:
+  std::uint64_t last_line_ = 0;
 };
 
 /// Finds paths by their hash.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -18,9 +17,10 @@ void WaveDeclarations::add(const WaveDeclared& declared) {
   }
   paths.push_back(declared.path);
   variables.push_back(declared.variable);
-  constexpr std::uint64_t last_line = std::numeric_limits<std::uint32_t>::max();
-  if (declared.line != 0)
-    lines.push_back(static_cast<std::uint32_t>(std::min(declared.line, last_line)));
+  if (declared.line == 0) return;
+  std::uint64_t step = declared.line - std::exchange(last_line_, declared.line);
+  for (; step >= 0x80; step >>= 7) lines += static_cast<char>(step | 0x80);
+  lines += static_cast<char>(step);
 }
 
 NameTable::NameTable(std::size_t most) : places_(most * 4 / 3 + 2) {
@@ -190,8 +190,11 @@ class Namer {
   WaveNames numbered() {
     WaveNames names{{}, {}, std::move(joined_), NameTable(all_.size())};
     std::map<std::string, unsigned> next;
+    std::uint64_t line = 0;
+    std::size_t next_line = 0;
     Place place = 0;
     for (auto it = all_.paths.begin(); it != all_.paths.end(); ++it, ++place) {
+      if (next_line < all_.lines.size()) line += take_step(next_line);
       if (gone_[place]) continue;
       std::string path = *it;
       const auto is_taken = [&] {
@@ -200,7 +203,7 @@ class Namer {
       if (is_taken()) {
         notes_.add("a name is declared again with other values: it is called " +
                        shown(path + "#2") + " here",
-                   all_.lines.empty() ? 0 : all_.lines[place]);
+                   line);
         const std::string base = path;
         unsigned& count = next[base];
         do {
@@ -211,6 +214,15 @@ class Namer {
       names.variables.push_back(all_.variables[place]);
     }
     return names;
+  }
+
+  std::uint64_t take_step(std::size_t& next) const {
+    std::uint64_t step = 0;
+    for (unsigned shift = 0;; shift += 7) {
+      const auto byte = static_cast<unsigned char>(all_.lines[next++]);
+      step |= std::uint64_t{byte & 0x7fu} << shift;
+      if (byte < 0x80) return step;
+    }
   }
 
   WaveDeclarations all_;
