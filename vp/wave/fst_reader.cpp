@@ -356,8 +356,11 @@ void FstReader::hand_over_packed(const FstChanges::Change& change, WaveHandler& 
       std::memcpy(&text_[std::size_t{i} * 8], digits_of_byte[byte].data(), 8);
     }
     value.text = std::string_view(text_).substr(0, form.width);
-    for (const char digit : value.text.substr(form.width - 64))
-      value.bits = value.bits << 1 | (digit & 1);
+    // The lowest 64 bits are in the last nine bytes, or eight if they end with the last one.
+    unsigned __int128 last = 0;
+    for (unsigned i = count > 9 ? count - 9 : 0; i < count; ++i)
+      last = last << 8 | static_cast<unsigned char>(change.bytes[i]);
+    value.bits = static_cast<std::uint64_t>(last >> (count * 8 - form.width));
   }
   handler.change(change.net, value);
 }

@@ -215,7 +215,10 @@ struct Story : vp::WaveHandler {
     } else if (value.plain && width <= 64) {
       text += std::to_string(value.bits);
     } else {
-      text += vp::full_digits(value.text, width);
+      const std::string digits = vp::full_digits(value.text, width);
+      const std::string low = digits.size() > 64 ? digits.substr(digits.size() - 64) : digits;
+      if (value.plain) BOOST_TEST_REQUIRE(value.bits == std::stoull(low, nullptr, 2));
+      text += digits;
     }
     of_net[net].push_back(text);
   }
