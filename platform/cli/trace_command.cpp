@@ -238,11 +238,22 @@ trace::CutOptions part(const TraceCommandOptions& options) {
 }
 
 int cut(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
-  TraceFile file = opened(options);
-  trace::cut(file, options.other, part(options));
-  out << "wrote " << options.other << "\n";
-  warn_of(file, err);
-  return done;
+  trace::CutOptions asked = part(options);
+  for (;;) {
+    TraceFile file = opened(options);
+    try {
+      trace::cut(file, options.other, asked);
+    } catch (const trace::MixedTypes& mixed) {
+      std::error_code ignored;
+      const bool again = std::filesystem::is_regular_file(file.name(), ignored);
+      if (!again || !asked.as_texts.empty()) throw;
+      asked.as_texts = mixed.nets;
+      continue;
+    }
+    out << "wrote " << options.other << "\n";
+    warn_of(file, err);
+    return done;
+  }
 }
 
 int saif(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
