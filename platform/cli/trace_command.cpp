@@ -82,8 +82,12 @@ const trace::Vocabulary& words_of(const TraceCommandOptions& options) {
 
 int list(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
   TraceFile file = opened(options);
-  const trace::Listing listing = trace::listing(file, vp::TraceFilter(options.filter));
-  out << (options.json ? trace::tables_as_json(listing.tables()) : listing.text());
+  const trace::Listing listing(file, vp::TraceFilter(options.filter));
+  if (options.json) {
+    out << trace::tables_as_json(listing.tables());
+  } else {
+    listing.write(out);
+  }
   warn_of(file, err);
   return done;
 }
@@ -234,11 +238,22 @@ trace::CutOptions part(const TraceCommandOptions& options) {
 }
 
 int cut(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
-  TraceFile file = opened(options);
-  trace::cut(file, options.other, part(options));
-  out << "wrote " << options.other << "\n";
-  warn_of(file, err);
-  return done;
+  trace::CutOptions asked = part(options);
+  for (;;) {
+    TraceFile file = opened(options);
+    try {
+      trace::cut(file, options.other, asked);
+    } catch (const trace::MixedTypes& mixed) {
+      std::error_code ignored;
+      const bool again = std::filesystem::is_regular_file(file.name(), ignored);
+      if (!again || !asked.as_texts.empty()) throw;
+      asked.as_texts = mixed.nets;
+      continue;
+    }
+    out << "wrote " << options.other << "\n";
+    warn_of(file, err);
+    return done;
+  }
 }
 
 int saif(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
@@ -313,7 +328,7 @@ int view(const TraceCommandOptions& options, std::ostream& out, std::ostream& er
   trace::Viewing asked;
   asked.file = std::filesystem::absolute(options.file).lexically_normal().string();
   for (const std::string& name : options.signals)
-    asked.signals.push_back(file.variable(vp::find_path(name, file.paths(), "view: ")).path);
+    asked.signals.push_back(file.reader().paths()[vp::find_path(name, file.paths(), "view: ")]);
   if (options.marker) {
     asked.steps =
         trace::steps_of(parse_moment(*options.marker, "--at"), file.reader().timescale_fs());

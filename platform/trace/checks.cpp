@@ -160,6 +160,13 @@ namespace {
 
 std::string shown(const vp::ExpressionValue& value) {
   if (!value.known) return "x";
+  if (value.is_text) return "'" + value.text + "'";
+  if (!value.digits.empty()) {
+    constexpr std::size_t most = 40;
+    const auto width = static_cast<unsigned>(value.digits.size());
+    const std::string text = "0x" + readable(value.digits, vp::WaveVariable::Kind::bits, width);
+    return text.size() <= most ? text : text.substr(0, most) + "…";
+  }
   const auto whole = static_cast<std::uint64_t>(value.number);
   if (static_cast<long double>(whole) == value.number) return std::to_string(whole);
   return vp::format_fixed(static_cast<double>(value.number), 6);
@@ -290,7 +297,7 @@ void Judge::instant(std::uint64_t ps) {
       if (!second_.holds(past)) return;
       ++result.occasions;
       const auto now = first_.value(replay_), before = first_.value(past);
-      if (now.known && before.known && now.number != before.number)
+      if (now.known && before.known && (now.is_text != before.is_text || now.order(before) != 0))
         fail(ps, shown(now) + " after " + shown(before));
       return;
     }
@@ -309,9 +316,9 @@ void Judge::increases(std::uint64_t ps) {
   if (!second_stood_) return;
   const auto value = first_.value(replay_);
   // While the condition holds, only another value is another one.
-  if (!value.known || (!comes && last_ && value.number == last_->number)) return;
+  if (!value.known || (!comes && last_ && value.order(*last_) == 0)) return;
   ++result.occasions;
-  if (last_ && value.number <= last_->number) fail(ps, shown(value) + " after " + shown(*last_));
+  if (last_ && value.order(*last_) <= 0) fail(ps, shown(value) + " after " + shown(*last_));
   last_ = value;
 }
 

@@ -70,7 +70,8 @@ struct Side {
     }
   }
   void note(std::size_t signal, const std::string& text) {
-    recent.push_back({stepper.now_ps(), variables[signal]->path, shown(signal, text)});
+    const auto place = static_cast<std::size_t>(variables[signal] - &file.variable(0));
+    recent.push_back({stepper.now_ps(), file.reader().paths()[place], shown(signal, text)});
     if (recent.size() > options_.neighbourhood) recent.pop_front();
   }
   std::string shown(std::size_t signal, const std::string& text) const {
@@ -106,7 +107,7 @@ bool same(const std::string& a, const std::string& b, vp::WaveVariable::Kind kin
 
 std::vector<std::string> missing(const TraceFile& from, const TraceFile& in,
                                  const vp::TraceFilter& filter) {
-  std::vector<std::string> others = in.paths(), result;
+  std::vector<std::string> others = in.paths().all(), result;
   std::sort(others.begin(), others.end());
   for (const std::string& path : from.paths()) {
     if (filter.selects(path) && !std::binary_search(others.begin(), others.end(), path)) {

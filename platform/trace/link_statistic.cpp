@@ -76,7 +76,7 @@ class LinkStatistic final : public Statistic {
  private:
   void add_link(std::uint32_t variable);
   void choose_clocks();
-  Replay::Slot follow(int variable) {
+  Replay::Slot follow(std::int64_t variable) {
     const Replay::Slot slot = replay_.watch(static_cast<std::uint32_t>(variable));
     if (slot >= belongs_.size()) belongs_.resize(slot + 1, 0);
     belongs_[slot] = 1;
@@ -124,7 +124,7 @@ void LinkStatistic::add_link(std::uint32_t variable) {
   const auto part = [&](const char* name) {
     return file_.find(stem + (capitals ? name : lower(name)));
   };
-  const int ready = part("READY");
+  const std::int64_t ready = part("READY");
   if (ready < 0) return;
   Link link;
   const std::string_view leaf = leaf_of(stem);
@@ -141,10 +141,10 @@ void LinkStatistic::add_link(std::uint32_t variable) {
       link.interface.pop_back();
     break;
   }
-  link.valid = follow(static_cast<int>(variable));
+  link.valid = follow(variable);
   link.ready = follow(ready);
-  if (const int last = part("LAST"); last >= 0) link.last = follow(last);
-  if (const int data = part("DATA"); data >= 0) {
+  if (const std::int64_t last = part("LAST"); last >= 0) link.last = follow(last);
+  if (const std::int64_t data = part("DATA"); data >= 0) {
     link.data = follow(data);
     link.bytes = (file_.variable(static_cast<std::uint32_t>(data)).width + 7) / 8;
   }

@@ -3,7 +3,8 @@
 #include <vp/text.h>
 #include <vp/unit.h>
 
-#include <optional>
+#include <cstring>
+#include <sstream>
 
 namespace platform::trace {
 
@@ -24,33 +25,65 @@ class ValueCounter final : public vp::WaveHandler {
   explicit ValueCounter(TraceFile& file) : file_(file), nets_(file.reader().nets()) {}
 
   bool at(std::uint64_t ps) override {
-    if (!first) first = exact_time(ps, file_.reader().below_ps());
+    if (first.empty()) first = exact_time(ps, file_.reader().below_ps());
     return true;
   }
   void change(std::uint32_t net, const vp::WaveValue& value) override {
     Net& state = nets_[net];
-    const bool in_bits = value.kind == Kind::bits && value.known && value.text.size() <= 64;
-    const bool same = state.count != 0 && state.in_bits == in_bits &&
-                      (in_bits ? state.bits == value.bits : state.text == value.text);
+    Form form = Form::text;
+    std::uint64_t bits = value.bits;
+    std::string_view text = value.text;
+    if (value.kind == Kind::bits && value.plain && state.is_narrow) {
+      form = Form::bits;
+    } else if (value.kind == Kind::bits) {
+      text = shortest_digits(text);
+      if (text.size() == 1) {
+        form = Form::letter;
+        bits = static_cast<unsigned char>(text.front());
+      }
+    } else if (value.kind == Kind::real && value.known) {
+      form = Form::real;
+      std::memcpy(&bits, &value.real, sizeof bits);
+    }
+    const bool same = state.count != 0 && state.form == form &&
+                      (form == Form::text ? texts_[net] == text : state.bits == bits);
     if (same && !state.is_event) return;
     ++state.count;
-    state.in_bits = in_bits;
-    state.bits = value.bits;
-    if (!in_bits) state.text = value.text;
+    state.form = form;
+    state.bits = bits;
+    if (form != Form::text) return;
+    if (texts_.empty()) texts_.resize(nets_.size());
+    texts_[net] = text;
   }
-  void mark_event(std::uint32_t net) { nets_[net].is_event = true; }
-  std::uint64_t count(std::uint32_t net) const { return nets_[net].count; }
+  bool needs_texts() const override { return false; }
+  void declare(const vp::WaveVariable& variable) {
+    nets_[variable.net].is_event = variable.is_event;
+    nets_[variable.net].is_narrow = variable.width <= 64;
+  }
+  std::vector<std::uint64_t> counts() const {
+    std::vector<std::uint64_t> counts;
+    counts.reserve(nets_.size());
+    for (const Net& net : nets_) counts.push_back(net.count);
+    return counts;
+  }
 
-  std::optional<std::string> first;
+  std::string first;  ///< time; empty before it
 
  private:
+  /// What two values are compared by: bits, the bits of a real, a letter that fills all digits, or
+  /// what the file says.
+  enum Form : std::uint8_t { bits, real, letter, text };
+  /// Small, as there may be millions.
   struct Net {
-    std::uint64_t count = 0, bits = 0;
-    bool in_bits = false, is_event = false;
-    std::string text;
+    std::uint64_t bits = 0;
+    std::uint64_t count : 56;
+    std::uint64_t form : 2, is_event : 1, is_narrow : 1;
+
+    Net() : count(0), form(Form::text), is_event(0), is_narrow(0) {}
   };
   TraceFile& file_;
   std::vector<Net> nets_;
+  std::vector<std::string> texts_;  ///< by net; empty before the first
 };
 
 }  // namespace
@@ -61,73 +94,85 @@ std::string exact_time(std::uint64_t ps, unsigned below_ps) {
   return ps == 0 ? femtoseconds : vp::format_time(ps) + " " + femtoseconds;
 }
 
-Listing listing(TraceFile& file, const vp::TraceFilter& filter) {
-  filter.check(file.paths(), {});
+Listing::Listing(TraceFile& file, const vp::TraceFilter& filter)
+    : file_(file), filter_(filter), first_of_net_(file.reader().nets()) {
+  filter.check(file.paths());
   vp::WaveReader& reader = file.reader();
   ValueCounter counter(file);
-  std::vector<std::int64_t> first_of_net(reader.nets(), -1);
-  Listing listing;
-  std::vector<std::uint32_t> nets;
-  for (std::uint32_t i = 0; i < file.paths().size(); ++i) {
-    if (!filter.selects(file.paths()[i])) continue;
-    const vp::WaveVariable& variable = file.variable(i);
-    Listing::Signal signal{file.paths()[i], type_of(variable), "", 0, {}};
-    if (first_of_net[variable.net] >= 0) {
-      signal.alias_of = listing.signals[static_cast<std::size_t>(first_of_net[variable.net])].path;
+  std::uint32_t place = 0;
+  for (const std::string& path : file.paths()) {
+    const vp::WaveVariable& variable = file.variable(place++);
+    if (!filter.selects(path)) continue;
+    ++signals_;
+    if (first_of_net_[variable.net] != 0) continue;
+    first_of_net_[variable.net] = place;
+    reader.select(variable.net);
+    counter.declare(variable);
+  }
+  reader.read(counter);
+  values_of_net_ = counter.counts();
+  for (const std::uint64_t count : values_of_net_) values_ += count;
+  first_ = counter.first;
+  if (!first_.empty()) last_ = exact_time(reader.now_ps(), reader.below_ps());
+}
+
+void Listing::each(const std::function<void(const Signal&)>& take) const {
+  const vp::WaveReader& reader = file_.reader();
+  std::uint32_t place = 0;
+  for (const std::string& path : file_.paths()) {
+    const vp::WaveVariable& variable = file_.variable(place++);
+    if (!filter_.selects(path)) continue;
+    Signal signal{path, type_of(variable), "", 0, {}};
+    const std::uint32_t first = first_of_net_[variable.net];
+    if (first != place) {
+      signal.alias_of = file_.paths()[first - 1];
     } else {
-      first_of_net[variable.net] = static_cast<std::int64_t>(listing.signals.size());
-      reader.select(variable.net);
-      if (variable.is_event) counter.mark_event(variable.net);
+      signal.values = values_of_net_[variable.net];
     }
     if (variable.enumeration != 0) {
       for (const auto& [digits, word] : reader.enumerations()[variable.enumeration - 1].words)
         signal.words.push_back(word);
     }
-    listing.signals.push_back(std::move(signal));
-    nets.push_back(variable.net);
+    take(signal);
   }
-  reader.read(counter);
-  listing.file = file.name();
-  listing.timescale_fs = reader.timescale_fs();
-  listing.has_times = counter.first.has_value();
-  listing.first = counter.first.value_or("");
-  listing.last = exact_time(reader.now_ps(), reader.below_ps());
-  for (std::size_t i = 0; i < nets.size(); ++i) {
-    listing.signals[i].changes = counter.count(nets[i]);
-    if (listing.signals[i].alias_of.empty()) listing.changes += listing.signals[i].changes;
-  }
-  return listing;
+}
+
+void Listing::write(std::ostream& out) const {
+  constexpr std::uint64_t fs_per_ps = 1000;
+  const std::uint64_t step_fs = file_.reader().timescale_fs();
+  out << file_.name() << ": steps of " << exact_time(step_fs / fs_per_ps, step_fs % fs_per_ps)
+      << ", " << (first_.empty() ? "no values" : first_ + " to " + last_) << ", " << signals_
+      << (signals_ == 1 ? " signal, " : " signals, ") << values_
+      << (values_ == 1 ? " value\n" : " values\n");
+  each([&](const Signal& signal) {
+    out << signal.path << "  " << signal.type << "  ";
+    if (signal.alias_of.empty()) {
+      out << signal.values << (signal.values == 1 ? " value" : " values");
+    } else {
+      out << "= " << signal.alias_of;
+    }
+    if (!signal.words.empty()) out << "  " << vp::join(signal.words, " ");
+    out << "\n";
+  });
 }
 
 std::string Listing::text() const {
-  constexpr std::uint64_t fs_per_ps = 1000;
-  std::string text =
-      file + ": steps of " + exact_time(timescale_fs / fs_per_ps, timescale_fs % fs_per_ps) + ", " +
-      (has_times ? first + " to " + last : "no values") + ", " + std::to_string(signals.size()) +
-      (signals.size() == 1 ? " signal, " : " signals, ") + std::to_string(changes) +
-      (changes == 1 ? " value\n" : " values\n");
-  for (const Signal& signal : signals) {
-    text += signal.path + "  " + signal.type + "  ";
-    text += signal.alias_of.empty()
-                ? std::to_string(signal.changes) + (signal.changes == 1 ? " value" : " values")
-                : "= " + signal.alias_of;
-    if (!signal.words.empty()) text += "  " + vp::join(signal.words, " ");
-    text += "\n";
-  }
-  return text;
+  std::ostringstream text;
+  write(text);
+  return text.str();
 }
 
 std::vector<Table> Listing::tables() const {
   Table trace{"trace",
               "Trace",
               {"file", "timescale_fs", "first", "last", "values"},
-              {{file, timescale_fs, first, has_times ? last : std::string(), changes}},
+              {{file_.name(), file_.reader().timescale_fs(), first_, last_, values_}},
               false};
   Table table{"signals", "Signals", {"signal", "type", "values", "alias_of", "words"}, {}, false};
-  for (const Signal& signal : signals) {
+  each([&](const Signal& signal) {
     table.rows.push_back(
-        {signal.path, signal.type, signal.changes, signal.alias_of, vp::join(signal.words, " ")});
-  }
+        {signal.path, signal.type, signal.values, signal.alias_of, vp::join(signal.words, " ")});
+  });
   return {std::move(trace), std::move(table)};
 }
 

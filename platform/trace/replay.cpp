@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -41,13 +42,14 @@ NameMap read_name_map(const std::string& file) {
 
 TraceFile::TraceFile(const std::string& file, const NameMap& map, const vp::WaveOptions& options)
     : name_(file), reader_(file, options) {
-  for (const vp::WaveVariable& variable : reader_.variables()) paths_.push_back(variable.path);
   if (map.entries.empty()) return;
-  const std::vector<std::string> theirs = paths_;
+  map_ = reader_.paths();
   for (const NameMap::Entry& entry : map.entries) {
     const std::string where =
         "map '" + map.file + "', line " + std::to_string(entry.line) + ": in '" + file + "' ";
-    paths_[vp::find_path(entry.theirs, theirs, where)] = entry.ours;
+    const std::uint32_t place = vp::find_path(entry.theirs, reader_.paths(), where);
+    map_->rename(place, entry.ours);
+    mapped_[entry.ours] = place;
   }
 }
 
@@ -58,13 +60,13 @@ std::vector<std::string> warnings_of(const TraceFile& file) {
   return warnings;
 }
 
-int TraceFile::find(const std::string& path) const {
-  if (by_path_.empty()) {
-    for (std::size_t i = 0; i < paths_.size(); ++i)
-      by_path_.emplace(paths_[i], static_cast<int>(i));
-  }
-  const auto found = by_path_.find(path);
-  return found == by_path_.end() ? -1 : found->second;
+std::int64_t TraceFile::find(const std::string& path) const {
+  const auto mapped = mapped_.find(path);
+  if (mapped != mapped_.end()) return mapped->second;
+  const std::int64_t place = reader_.place_of(path);
+  // One that the map names otherwise has its own name no more.
+  const bool is_ours = place >= 0 && paths()[static_cast<std::size_t>(place)] == path;
+  return is_ours ? place : -1;
 }
 
 namespace {
@@ -80,6 +82,19 @@ std::string word_for(const vp::WaveEnumeration& words, std::uint64_t bits) {
   return {};
 }
 
+/// Sets the number to that of known digits, which may be above 64 bits.
+void widen(vp::ExpressionValue& value, const std::string& text, unsigned width) {
+  std::string digits = vp::full_digits(text, width);
+  for (char& digit : digits) digit = digit == '1' || digit == 'h' ? '1' : '0';
+  digits.erase(0, std::min(digits.find('1'), digits.size()));
+  value.is_wide = true;
+  if (digits.size() <= 64) return;
+  value.number = 0;
+  for (const char digit : digits.substr(0, 64)) value.number = value.number * 2 + (digit - '0');
+  value.number = std::ldexp(value.number, static_cast<int>(digits.size() - 64));
+  value.digits = std::move(digits);
+}
+
 }  // namespace
 
 Replay::Replay(TraceFile& file) : file_(file), slot_of_net_(file.reader().nets(), -1) {}
@@ -92,7 +107,7 @@ Replay::Slot Replay::watch(std::uint32_t variable) {
     const vp::WaveEnumeration* words =
         v.enumeration == 0 ? nullptr : &file_.reader().enumerations()[v.enumeration - 1];
     const bool has_words = words || v.kind == vp::WaveVariable::Kind::text;
-    State state{variable, false, v.is_event, has_words, words, {}, {}};
+    State state{variable, false, v.is_event, has_words, v.width > 64, words, {}, {}};
     state.now.kind = state.before.kind = v.kind;
     if (v.is_event) {  // one that has not occurred did not occur
       state.now.known = state.before.known = true;
@@ -104,7 +119,7 @@ Replay::Slot Replay::watch(std::uint32_t variable) {
 }
 
 std::optional<Replay::Slot> Replay::follow(const std::string& path) {
-  const int variable = file_.find(path);
+  const std::int64_t variable = file_.find(path);
   if (variable < 0) return std::nullopt;
   return watch(static_cast<std::uint32_t>(variable));
 }
@@ -113,13 +128,14 @@ Replay::Slot Replay::watch(const std::string& name) {
   return watch(vp::find_path(name, file_.paths()));
 }
 
-vp::ExpressionValue Replay::number(const State& state, bool past) {
+vp::ExpressionValue Replay::number(const State& state, bool past) const {
   const Value& value = past ? state.before : state.now;
   vp::ExpressionValue result = vp::ExpressionValue::unknown();
   if (value.known && value.kind == vp::WaveVariable::Kind::real) {
     result = value.real;
   } else if (value.known && value.kind == vp::WaveVariable::Kind::bits) {
     result = value.bits;
+    if (state.is_wide) widen(result, value.text, file_.variable(state.variable).width);
   } else if (value.kind == vp::WaveVariable::Kind::text) {
     result.is_text = true;
     result.known = value.known;
@@ -160,7 +176,7 @@ bool Replay::finish_instant() {
     state.before.known = state.now.known;
     state.before.bits = state.now.bits;
     state.before.real = state.now.real;
-    if (keep_texts_ || state.now.kind == vp::WaveVariable::Kind::text) {
+    if (keeps_text(state, state.now.kind)) {
       state.before.text = state.now.text;
     }
   }
@@ -186,7 +202,7 @@ void Replay::change(std::uint32_t net, const vp::WaveValue& value) {
   state.now.known = value.known;
   state.now.bits = value.bits;
   state.now.real = value.real;
-  if (keep_texts_ || value.kind == vp::WaveVariable::Kind::text) {
+  if (keeps_text(state, value.kind)) {
     state.now.text.assign(value.text);
   }
 }

@@ -39,17 +39,17 @@ class TraceFile {
   vp::WaveReader& reader() { return reader_; }
   const vp::WaveReader& reader() const { return reader_; }
   /// By variable: our name where the map has one.
-  const std::vector<std::string>& paths() const { return paths_; }
+  const vp::WavePaths& paths() const { return map_ ? *map_ : reader_.paths(); }
   const vp::WaveVariable& variable(std::uint32_t i) const { return reader_.variables()[i]; }
   /// The variable called `path`; -1 if missing.
-  int find(const std::string& path) const;
+  std::int64_t find(const std::string& path) const;
   const std::string& name() const { return name_; }
 
  private:
   std::string name_;
   vp::WaveReader reader_;
-  std::vector<std::string> paths_;
-  mutable std::unordered_map<std::string_view, int> by_path_;  ///< filled when it is asked for
+  std::optional<vp::WavePaths> map_;  ///< the paths under our names, if some have other ones
+  std::unordered_map<std::string, std::uint32_t> mapped_;
 };
 
 /// What is odd about a trace, as "trace 't.vcd' has no $timescale …".
@@ -109,7 +109,8 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   void bind(vp::Expression& expression, std::vector<Slot>& slots, unsigned history = 1);
   /// After run(): throws vp::InputError if a signal is compared with a word that never had one.
   void check_words(const vp::Expression& expression) const;
-  /// Keeps the texts of all values, for those who show them; otherwise those of texts only.
+  /// Keeps the texts of all values, for those who show them; otherwise those of texts and of
+  /// vectors above 64 bits only.
   void keep_texts() { keep_texts_ = true; }
 
  private:
@@ -122,15 +123,18 @@ class Replay final : public vp::ExpressionValues, private vp::WaveHandler {
   };
   struct State {
     std::uint32_t variable;
-    bool touched, is_event, has_words;
+    bool touched, is_event, has_words, is_wide;
     const vp::WaveEnumeration* words;  ///< null: its values have no names
     Value now, before;
   };
-  static vp::ExpressionValue number(const State& state, bool past);
+  vp::ExpressionValue number(const State& state, bool past) const;
   bool at(std::uint64_t ps) override;
   void change(std::uint32_t net, const vp::WaveValue& value) override;
   void recorded(bool is_recorded) override;
   bool finish_instant();
+  bool keeps_text(const State& state, vp::WaveVariable::Kind kind) const {
+    return keep_texts_ || state.is_wide || kind == vp::WaveVariable::Kind::text;
+  }
 
   TraceFile& file_;
   Listener* listener_ = nullptr;

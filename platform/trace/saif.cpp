@@ -32,7 +32,7 @@ std::string identifier(const std::string& name) {
 class SaifWriter final : private WindowReader {
  public:
   SaifWriter(TraceFile& file, const CutOptions& options) : WindowReader(file, options) {
-    options.filter.check(file.paths(), {});
+    options.filter.check(file.paths());
     for (std::uint32_t i = 0; i < file.paths().size(); ++i) {
       if (options.filter.selects(file.paths()[i])) add(i);
     }

@@ -32,7 +32,8 @@ Translation::Translation(TraceFile& file, Replay& replay, const Vocabulary& word
     : file_(file), replay_(replay), vocabulary_(words), translated_(words.translated) {
   translated_["ps.cpu.function"] = function_file_name;
   translated_["ps.gic.active"] = interrupt_file_name;
-  const int number = file.find("ps.cpu.function"), name = file.find("ps.cpu.function_name");
+  const std::int64_t number = file.find("ps.cpu.function"),
+                     name = file.find("ps.cpu.function_name");
   has_functions_ = number >= 0 && name >= 0;
   if (has_functions_) {
     function_width_ = file.variable(static_cast<std::uint32_t>(number)).width;
@@ -40,7 +41,7 @@ Translation::Translation(TraceFile& file, Replay& replay, const Vocabulary& word
     function_name_ = replay.watch(static_cast<std::uint32_t>(name));
   }
   for (const std::string& field : words.fields) {
-    const int signal = file.find(field);
+    const std::int64_t signal = file.find(field);
     field_widths_.push_back(signal < 0 ? 0u
                                        : file.variable(static_cast<std::uint32_t>(signal)).width);
   }
@@ -246,11 +247,12 @@ std::vector<SaveFile::Line> save_lines(const TraceFile& file,
                                        const std::vector<std::string>& paths) {
   std::vector<SaveFile::Line> lines;
   for (const std::string& path : paths) {
-    const int place = file.find(path);
-    if (place < 0) continue;
-    const vp::WaveVariable& variable = file.variable(static_cast<std::uint32_t>(place));
+    const std::int64_t found = file.find(path);
+    if (found < 0) continue;
+    const auto place = static_cast<std::uint32_t>(found);
+    const vp::WaveVariable& variable = file.variable(place);
     SaveFile::Line line;
-    line.path = variable.path;  // as the file has it
+    line.path = file.reader().paths()[place];  // as the file has it
     line.width = variable.width;
     line.kind = variable.kind;
     line.decimal = is_count(path);

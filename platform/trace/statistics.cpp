@@ -135,9 +135,9 @@ struct Collector : Replay::Listener {
 
 [[noreturn]] void refuse(const TraceFile& file, const Vocabulary& words) {
   constexpr std::size_t shown = 4;
-  std::vector<std::string> names = file.paths();
-  const std::size_t count = names.size();
-  if (names.size() > shown) names.resize(shown);
+  const std::size_t count = file.paths().size();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(count, shown); ++i) names.push_back(file.paths()[i]);
   throw vp::InputError(
       "trace '" + file.name() +
       "' has nothing that markervp knows: no link (….tvalid and ….tready), no buffer "

@@ -12,6 +12,7 @@
 #include <trace/replay.h>
 #include <trace/vocabulary.h>
 #include <trace/window.h>
+#include <vp/error.h>
 #include <vp/expression.h>
 #include <vp/frame_gate.h>
 
@@ -48,10 +49,20 @@ Difference difference(TraceFile& a, TraceFile& b, const DifferenceOptions& optio
 
 struct CutOptions : Window {
   vp::TraceFilter filter;
+  std::vector<std::uint32_t> as_texts;  ///< nets that are written as texts whatever their type is
+};
+
+/// Signals have values that are not of their type, such as words in a vector of bits: a file can
+/// hold them as texts only.
+struct MixedTypes final : vp::InputError {
+  MixedTypes(const std::string& what, std::vector<std::uint32_t> mixed)
+      : InputError(what), nets(std::move(mixed)) {}
+  std::vector<std::uint32_t> nets;  ///< all of the trace, for CutOptions::as_texts
 };
 
 /// Writes a part of a trace, under our names, as the format that the name `to` tells. Throws
-/// vp::InputError; also if the window lies behind the trace or the filter selects nothing.
+/// vp::InputError; also if the window lies behind the trace or the filter selects nothing. Throws
+/// MixedTypes when it has read the trace; what it wrote is then not whole.
 void cut(TraceFile& file, const std::string& to, const CutOptions& options = {});
 
 /// Writes how long each bit of the selected signals has which value, and how often it turns, as

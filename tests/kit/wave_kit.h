@@ -14,9 +14,9 @@ class WaveText : private vp::WaveHandler {
  public:
   explicit WaveText(const std::string& file, const vp::WaveOptions& options = {}) {
     vp::WaveReader reader(file, options);
-    for (const auto& variable : reader.variables()) {
-      names_.emplace(variable.net, variable.path);
-      declared += variable.path + " ";
+    for (std::size_t i = 0; i < reader.variables().size(); ++i) {
+      names_.emplace(reader.variables()[i].net, reader.paths()[i]);
+      declared += reader.paths()[i] + " ";
     }
     reader.select_all();
     reader.read(*this);

@@ -25,11 +25,25 @@ std::string unit_text(Unit unit) {
   return base.empty() ? "a plain number" : base;
 }
 
+std::string binary(std::uint64_t number) {
+  std::string digits;
+  for (unsigned bit = 64; bit-- > 0;) digits += (number >> bit & 1) != 0 ? '1' : '0';
+  return digits;
+}
+
 ExpressionValue truth(bool known, bool value) {
   return known ? ExpressionValue(static_cast<long double>(value)) : ExpressionValue::unknown();
 }
 
 }  // namespace
+
+int ExpressionValue::order(const ExpressionValue& other) const {
+  if (is_text) return text.compare(other.text);
+  if (digits.empty() || other.digits.empty())
+    return number < other.number ? -1 : static_cast<int>(number > other.number);
+  if (digits.size() != other.digits.size()) return digits.size() < other.digits.size() ? -1 : 1;
+  return digits.compare(other.digits);
+}
 
 void Expression::fail(std::uint32_t column, const std::string& problem) const {
   throw InputError((where_.empty() ? "" : where_ + ": ") + "'" + excerpt(text_) + "', column " +
@@ -172,9 +186,13 @@ ExpressionValue Expression::evaluate(std::uint32_t place, const At& at, unsigned
       break;
   }
   ExpressionValue left = evaluate(node.left, at, ago);
+  // Arithmetic is exact up to 64 bits, and unknown beyond.
+  const auto is_exact = [](const ExpressionValue& value) { return value.digits.empty(); };
   if (node.operation == Operation::negate) {
     check_number(node, left);
+    left.known = left.known && is_exact(left);
     left.number = -left.number;
+    left.digits.clear();
     return left;
   }
   // Before this instant nothing moves: both sides of an edge are one value. To compute it twice
@@ -187,6 +205,8 @@ ExpressionValue Expression::evaluate(std::uint32_t place, const At& at, unsigned
   if (node.operation < Operation::plus) return compared(node, left, right);
   check_number(node, left);
   check_number(node, right);
+  left.known = left.known && is_exact(left) && is_exact(right);
+  left.digits.clear();
   if (node.operation == Operation::times || node.operation == Operation::over)
     return scaled(node, std::move(left), right);
   check_same_unit(node, left, right, "adds");
@@ -216,8 +236,7 @@ ExpressionValue Expression::over_time(const Node& node, const At& at, unsigned a
   const ExpressionValue before = evaluate(node.left, at, ago + 1);
   const bool known = now.known && before.known;
   if (node.operation == Operation::stable) {
-    return truth(known, now.is_text == before.is_text && now.number == before.number &&
-                            (!now.is_text || now.text == before.text));
+    return truth(known, now.is_text == before.is_text && now.order(before) == 0);
   }
   check_number(node, now);
   check_number(node, before);
@@ -262,6 +281,10 @@ ExpressionValue Expression::named(const Node& node, const At& at, unsigned ago) 
   ExpressionValue whole = at(node.left, ago);
   if (!node.sliced) return whole;
   check_number(node, whole);
+  constexpr unsigned most_bits = 64;
+  if (node.high >= most_bits && whole.known && !whole.is_wide)
+    fail(node.column, "bit " + std::to_string(node.high) + " of a signal of 64 bits at most");
+  if (whole.is_wide && whole.known) return sliced(std::move(whole), node);
   const unsigned width = node.high - node.low + 1;
   const std::uint64_t mask = width == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
   constexpr auto most = static_cast<long double>(std::numeric_limits<std::uint64_t>::max());
@@ -269,6 +292,19 @@ ExpressionValue Expression::named(const Node& node, const At& at, unsigned ago) 
   if (whole.known)
     whole.number =
         static_cast<long double>(static_cast<std::uint64_t>(whole.number) >> node.low & mask);
+  return whole;
+}
+
+/// The bits of a signal of more than 64.
+ExpressionValue Expression::sliced(ExpressionValue whole, const Node& node) {
+  const std::string digits = whole.digits.empty() ? binary(static_cast<std::uint64_t>(whole.number))
+                                                  : std::exchange(whole.digits, {});
+  std::uint64_t bits = 0;
+  for (unsigned bit = node.high + 1; bit-- > node.low;)
+    bits = bits << 1 |
+           static_cast<unsigned>(bit < digits.size() && digits[digits.size() - 1 - bit] == '1');
+  whole.number = static_cast<long double>(bits);
+  whole.is_wide = false;
   return whole;
 }
 
@@ -323,10 +359,7 @@ ExpressionValue Expression::compared(const Node& node, const ExpressionValue& le
   }
   if (left.is_text && !equality) fail(node.column, "compares texts: only == and != do that");
   check_same_unit(node, left, right, "compares");
-  const auto order = [&] {
-    if (left.is_text) return left.text.compare(right.text);
-    return left.number < right.number ? -1 : static_cast<int>(left.number > right.number);
-  };
+  const auto order = [&] { return left.order(right); };
   const bool known = left.known && right.known;
   switch (node.operation) {
     case Operation::equal:

@@ -314,12 +314,14 @@ class ExpressionParser {
     node.low = take(":") ? bit() : node.high;
     if (!take("]")) fail("a ']' is missing");
     if (node.low > node.high) fail("bits are written [high:low]");
+    if (node.high - node.low > 63) fail("at most 64 bits are taken together");
   }
   unsigned bit() {
     skip();
     unsigned value = 0;
     const auto result = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (result.ec != std::errc() || value > 63) fail("a bit is a number from 0 to 63");
+    constexpr unsigned last = (1 << 20) - 1;
+    if (result.ec != std::errc() || value > last) fail("a bit is a number from 0 to 1048575");
     rest_.remove_prefix(static_cast<std::size_t>(result.ptr - rest_.data()));
     return value;
   }

@@ -374,6 +374,18 @@ void TraceFilter::check(const std::vector<std::string>& paths,
   }
 }
 
+void TraceFilter::check(const WavePaths& paths) const {
+  std::vector<bool> fits(patterns_.size());
+  bool any = false;
+  for (const std::string& path : paths) {
+    any = any || selects(path);
+    for (std::size_t i = 0; i < patterns_.size(); ++i)
+      fits[i] = fits[i] || !patterns_[i].take || matches(patterns_[i], path);
+  }
+  const bool all = std::find(fits.begin(), fits.end(), false) == fits.end();
+  if (!any || !all) check(paths.all(), {});
+}
+
 std::string TraceFilter::suggestion(const Pattern& pattern, const std::vector<std::string>& paths) {
   std::size_t deepest = 0;
   for (const std::string& path : paths) {
@@ -398,29 +410,43 @@ std::string TraceFilter::suggestion(const Pattern& pattern, const std::vector<st
          (more ? " and others" : "");
 }
 
-std::uint32_t find_path(const std::string& name, const std::vector<std::string>& paths,
-                        const std::string& where) {
+namespace {
+
+template <class Paths>
+std::uint32_t find_in(const Paths& paths, const std::string& name, const std::string& where) {
   std::vector<std::string> fitting;
   std::uint32_t place = 0;
   const std::string ending = "." + name;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (paths[i] == name) return static_cast<std::uint32_t>(i);
-    if (paths[i].size() <= ending.size() ||
-        paths[i].compare(paths[i].size() - ending.size(), ending.size(), ending) != 0) {
-      continue;
-    }
-    place = static_cast<std::uint32_t>(i);
-    fitting.push_back(paths[i]);
-  }
-  if (fitting.size() == 1) return place;
   constexpr std::size_t most = 4;
-  if (fitting.size() > most) fitting.resize(most);
+  std::size_t fit = 0;
+  std::uint32_t i = 0;
+  for (const std::string& path : paths) {
+    if (path == name) return i;
+    if (path.size() > ending.size() &&
+        path.compare(path.size() - ending.size(), ending.size(), ending) == 0) {
+      place = i;
+      if (++fit <= most) fitting.push_back(path);
+    }
+    ++i;
+  }
+  if (fit == 1) return place;
   if (!fitting.empty()) {
     throw InputError(where + "'" + name + "' may be " + one_of(fitting) + ": write more of it");
   }
-  const std::string nearest = nearest_match(name, paths);
+  const std::string nearest = nearest_match(name, {paths.begin(), paths.end()});
   throw InputError(where + "there is no signal '" + name + "'" +
                    (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+}  // namespace
+
+std::uint32_t find_path(const std::string& name, const std::vector<std::string>& paths,
+                        const std::string& where) {
+  return find_in(paths, name, where);
+}
+
+std::uint32_t find_path(const std::string& name, const WavePaths& paths, const std::string& where) {
+  return find_in(paths, name, where);
 }
 
 }  // namespace vp

@@ -7,10 +7,6 @@ namespace vp {
 
 namespace {
 
-constexpr std::size_t deepest = 1000;
-constexpr std::size_t longest_path = 1 << 16;
-constexpr std::uint64_t largest_paths = std::uint64_t{1} << 30;
-
 bool is_real(std::uint8_t type) {
   return type == fst::real || type == fst::real_parameter || type == fst::realtime ||
          type == fst::shortreal;
@@ -34,7 +30,6 @@ FstReader::Net net_of(std::uint32_t size) {
 }  // namespace
 
 void FstReader::read_hierarchy() {
-  constexpr std::uint32_t widest = 1 << 20;
   for (const std::uint32_t size : file_.geometry()) nets_.push_back(net_of(size));
   const bool has_geometry = !nets_.empty();
   const std::string bytes = file_.hierarchy();
@@ -45,7 +40,8 @@ void FstReader::read_hierarchy() {
     const std::uint8_t tag = cursor.byte();
     if (tag == fst::scope) {
       const std::uint8_t type = cursor.byte();  // module, task, process …
-      if (scopes.size() == deepest) cursor.fail("has more than 1000 scopes inside each other");
+      if (scopes.size() == deepest_scope)
+        cursor.fail("has more than 1000 scopes inside each other");
       const std::string name = clean_name(cursor.text());
       cursor.text();  // its component
       scopes.push_back(
@@ -67,8 +63,8 @@ void FstReader::read_hierarchy() {
       cursor.fail("has an entry of an unknown type");
     }
   }
-  for (const WaveDeclared& declared : declared_) {
-    if (nets_[declared.variable.net].width > widest) {
+  for (const WaveVariable& variable : declared_.variables) {
+    if (nets_[variable.net].width > widest_signal) {
       cursor.fail("declares a signal of more than 1048576 bits");
     }
   }
@@ -80,11 +76,11 @@ void FstReader::read_variable(std::uint8_t type, fst::Cursor& cursor, const Scop
   WaveDeclared declared;
   WaveVariable& variable = declared.variable;
   const std::string name = clean_name(cursor.text());
-  variable.path = scope.path + name;
-  path_bytes_ += variable.path.size();
+  declared.path = scope.path + name;
+  path_bytes_ += declared.path.size();
   const std::uint64_t length = cursor.varint(), alias = cursor.varint();
   if (name.empty()) cursor.fail("has a signal without a name");
-  if (variable.path.size() > longest_path || path_bytes_ > largest_paths) {
+  if (declared.path.size() > longest_path || path_bytes_ > largest_paths) {
     cursor.fail("has names that are too long");
   }
   if (alias == 0) {
@@ -108,7 +104,7 @@ void FstReader::read_variable(std::uint8_t type, fst::Cursor& cursor, const Scop
   variable.enumeration = enumerations_.take();
   take_range(declared);
   if (scope.is_array) declared.may_join = false;
-  declared_.push_back(std::move(declared));
+  declared_.add(declared);
 }
 
 }  // namespace vp

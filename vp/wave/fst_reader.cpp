@@ -1,6 +1,7 @@
 #include "fst_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -15,6 +16,21 @@ namespace {
 
 /// Bytes that are read at once: chains of one block lie side by side.
 constexpr std::uint64_t window_size = 1 << 18;
+
+/// What a scalar can be: 0, 1 and the letters.
+constexpr std::size_t scalar_states = 2 + fst::letters.size();
+std::array<WaveValue, scalar_states> scalar_values() {
+  std::array<WaveValue, scalar_states> values;
+  for (std::size_t state = 0; state < values.size(); ++state) {
+    WaveValue& value = values[state];
+    value.plain = state < 2;
+    value.text =
+        value.plain ? std::string_view("01").substr(state, 1) : fst::letters.substr(state - 2, 1);
+    value.known = value.plain || value.text == "h" || value.text == "l";
+    value.bits = value.text == "1" || value.text == "h" ? 1 : 0;
+  }
+  return values;
+}
 
 std::uint64_t swapped(std::uint64_t bits, bool swap) {
   return swap ? __builtin_bswap64(bits) : bits;
@@ -53,7 +69,8 @@ std::uint64_t FstReader::block_before(std::uint64_t steps) {
   return after == starts_.begin() ? 0 : static_cast<std::uint64_t>(after - starts_.begin()) - 1;
 }
 
-void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler) {
+void FstReader::read(const std::vector<bool>& selected, WaveClock& clock, WaveHandler& handler) {
+  needs_texts_ = handler.needs_texts();
   bool entered = entry_.has_value();
   if (entered) {
     block_ = *std::exchange(entry_, std::nullopt);
@@ -65,14 +82,14 @@ void FstReader::read(const std::vector<bool>& selected, const Time& at, WaveHand
   }
   for (;;) {
     if (open_) {
-      if (!hand_over_block(at, selected, handler)) return;
+      if (!hand_over_block(clock, selected, handler)) return;
       open_ = false;
     }
     if (block_ == file_.changes().size()) break;
     open_block(file_.changes()[block_++], selected, std::exchange(entered, false));
   }
   const std::uint64_t end = file_.is_finished() ? file_.end_time() : block_end_;
-  if (!file_.changes().empty() && end > block_end_) at(end);
+  if (!file_.changes().empty() && end > block_end_) clock.reach(end);
 }
 
 void FstReader::open_block(const fst::File::Section& section, const std::vector<bool>& selected,
@@ -115,19 +132,24 @@ std::uint64_t FstReader::read_times(const fst::File::Section& section) {
   const std::uint64_t unpacked = cursor.u64(), packed = cursor.u64(), count = cursor.u64();
   if (packed > section.size - tail_size - length_size) cursor.fail("is longer than its block");
   const std::uint64_t at = section.end() - tail_size - packed;
-  const std::string bytes = file_.read_packed(at, packed, unpacked);
-  if (count > bytes.size() || count > std::numeric_limits<std::uint32_t>::max()) {
+  times_ = file_.read_packed(at, packed, unpacked);
+  if (count > times_.size() || count > std::numeric_limits<std::uint32_t>::max()) {
     cursor.fail("is shorter than it says");
   }
-  fst::Cursor deltas(file_, bytes, at, "table of times");
-  times_.resize(count);
-  std::uint64_t now = 0;
-  for (std::uint64_t& time : times_) {
-    const std::uint64_t delta = deltas.varint();
-    if (delta > std::numeric_limits<std::uint64_t>::max() - now) deltas.fail("overflows");
-    time = now += delta;
-  }
+  times_at_ = at;
+  times_taken_ = 0;
+  now_ = 0;
+  instants_ = count;
   return at - length_size;
+}
+
+std::uint64_t FstReader::next_time() {
+  fst::Cursor cursor(file_, std::string_view(times_).substr(times_taken_), times_at_,
+                     "table of times");
+  const std::uint64_t step = cursor.varint();
+  times_taken_ += cursor.consumed();
+  if (step > std::numeric_limits<std::uint64_t>::max() - now_) cursor.fail("overflows");
+  return now_ += step;
 }
 
 // The table has an entry for each handle in turn: the distance to the next chain, or whose chain
@@ -186,26 +208,27 @@ std::vector<FstReader::Place> FstReader::read_places(const fst::File::Section& s
 
 void FstReader::unpack_chains(const std::vector<Place>& places, char method,
                               const std::vector<bool>& selected) {
-  chains_.assign(nets_.size(), {});
-  also_due_.assign(nets_.size(), 0);
-  due_.assign(times_.size(), 0);
+  changes_.begin(instants_);
+  std::vector<std::string_view> chains(places.size());
   std::vector<bool> wanted(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!selected[i]) continue;
     wanted[places[i].same_as != 0 ? places[i].same_as - 1 : i] = true;
   }
   unpacked_.clear();
-  std::string window;
-  std::uint64_t window_at = 0;
+  std::uint64_t window_at = 0, window_end = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place& place = places[i];
     if (!wanted[i] || place.at == 0) continue;
-    if (place.at < window_at || place.at + place.size > window_at + window.size()) {
+    if (place.at < window_at || place.at + place.size > window_end) {
       window_at = place.at;
-      window = file_.read(window_at,
-                          std::max(place.size, std::min(window_size, file_.size() - window_at)));
+      const std::uint64_t size =
+          std::max(place.size, std::min(window_size, file_.size() - window_at));
+      window_end = window_at + size;
+      if (window_.size() < size) window_.resize(size);
+      file_.read(window_at, window_.data(), size);
     }
-    const auto packed = std::string_view(window).substr(place.at - window_at, place.size);
+    const auto packed = std::string_view(window_).substr(place.at - window_at, place.size);
     fst::Cursor cursor(file_, packed, place.at, "chain of changes");
     const std::uint64_t size = cursor.varint();
     const std::string_view content = packed.substr(cursor.consumed());
@@ -217,59 +240,42 @@ void FstReader::unpack_chains(const std::vector<Place>& places, char method,
     } else if (!fst::unpack(method, content, chain, length)) {
       cursor.fail("cannot be unpacked");
     }
-    chains_[i] = {chain, chain + length, 0};
+    chains[i] = {chain, length};
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].same_as != 0) chains_[i] = chains_[places[i].same_as - 1];
+    const std::uint32_t same_as = places[i].same_as;
+    const std::string_view chain = chains[same_as != 0 ? same_as - 1 : i];
+    if (!selected[i] || chain.empty()) continue;
+    if (!changes_.add(chain_of(static_cast<std::uint32_t>(i), chain))) corrupt_changes();
   }
-  for (std::size_t i = places.size(); i > 0; --i) {
-    if (selected[i - 1]) schedule(static_cast<std::uint32_t>(i - 1), 0);
+}
+
+FstChanges::Chain FstReader::chain_of(std::uint32_t net, std::string_view bytes) const {
+  const Net& form = nets_[net];
+  const bool is_scalar = form.kind == WaveVariable::Kind::bits && form.length() == 1;
+  FstChanges::Chain chain{bytes.data(), bytes.data() + bytes.size(), net, FstChanges::Form::vector,
+                          static_cast<std::uint32_t>(form.length())};
+  if (form.kind == WaveVariable::Kind::text) chain.form = FstChanges::Form::text;
+  if (is_scalar) chain.form = FstChanges::Form::scalar;
+  if (form.kind == WaveVariable::Kind::real) {
+    chain.form = FstChanges::Form::real;
+    chain.length = sizeof(double);
   }
+  return chain;
 }
 
-std::uint64_t FstReader::varint(Chain& chain) const {
-  std::uint64_t value = 0;
-  for (unsigned shift = 0; shift < 64; shift += 7) {
-    if (chain.next == chain.end) corrupt_changes();
-    const auto byte = static_cast<unsigned char>(*chain.next++);
-    value |= static_cast<std::uint64_t>(byte & 0x7f) << shift;
-    if (byte < 0x80) return value;
-  }
-  corrupt_changes();
-}
-
-const char* FstReader::take(Chain& chain, std::uint64_t size) const {
-  if (size > static_cast<std::uint64_t>(chain.end - chain.next)) corrupt_changes();
-  return std::exchange(chain.next, chain.next + size);
-}
-
-/// Reads when the net changes next, counted from the instant `from`.
-void FstReader::schedule(std::uint32_t net, std::size_t from) {
-  Chain& chain = chains_[net];
-  if (chain.next == chain.end) return;
-  const std::uint64_t head = chain.head = varint(chain);
-  const bool is_scalar = nets_[net].kind == WaveVariable::Kind::bits && nets_[net].length() == 1;
-  const std::uint64_t delta = is_scalar ? head >> ((head & 1) != 0 ? 4 : 2) : head >> 1;
-  if (delta >= due_.size() - from) corrupt_changes();
-  std::uint32_t& first = due_[from + delta];
-  also_due_[net] = std::exchange(first, net + 1);
-}
-
-bool FstReader::hand_over_block(const Time& at, const std::vector<bool>& selected,
+bool FstReader::hand_over_block(WaveClock& clock, const std::vector<bool>& selected,
                                 WaveHandler& handler) {
   if (frame_due_) {
-    if (!std::exchange(announced_, true) && !at(block_start_)) return false;
+    if (!std::exchange(announced_, true) && !clock.reach(block_start_)) return false;
     hand_over_frame(selected, handler);
     frame_due_ = announced_ = false;
   }
-  for (; instant_ < times_.size(); ++instant_, announced_ = false) {
-    if (!std::exchange(announced_, true) && !at(times_[instant_])) return false;
-    while (due_[instant_] != 0) {
-      const std::uint32_t net = due_[instant_] - 1;
-      due_[instant_] = also_due_[net];
-      hand_over(net, handler);
-      schedule(net, instant_);
-    }
+  for (; instant_ < instants_; ++instant_, announced_ = false) {
+    if (!std::exchange(announced_, true) && !clock.reach(next_time())) return false;
+    const auto changes = changes_.at(instant_);
+    if (!changes) corrupt_changes();
+    for (const FstChanges::Change& change : *changes) hand_over(change, handler);
   }
   return true;
 }
@@ -301,55 +307,71 @@ void FstReader::hand_over_frame(const std::vector<bool>& selected, WaveHandler& 
   }
 }
 
-void FstReader::hand_over(std::uint32_t net, WaveHandler& handler) {
-  Chain& chain = chains_[net];
-  const std::uint64_t head = chain.head;
-  const bool as_written = (head & 1) != 0;
-  const Net& form = nets_[net];
-  if (form.kind == WaveVariable::Kind::text) {
-    if (as_written) corrupt_changes();
-    WaveValue value;
-    value.kind = form.kind;
-    value.known = true;
-    const std::uint64_t size = varint(chain);
-    value.text = {take(chain, size), size};
-    handler.change(net, value);
-  } else if (form.kind == WaveVariable::Kind::real) {
-    if (as_written) {
-      hand_over_real(net, take(chain, sizeof(double)), handler);
-    } else {  // its eight bytes happen to be digits
-      hand_over_real(net, digits_of_byte[static_cast<unsigned char>(*take(chain, 1))].data(),
+void FstReader::hand_over(const FstChanges::Change& change, WaveHandler& handler) {
+  static const auto scalars = scalar_values();
+  switch (change.form) {
+    case FstChanges::Form::scalar:
+      handler.change(change.net, scalars[change.state()]);
+      break;
+    case FstChanges::Form::vector:
+      if (change.as_written()) {
+        hand_over_bits(change.net, {change.bytes, nets_[change.net].length()}, handler);
+      } else {
+        hand_over_packed(change, handler);
+      }
+      break;
+    case FstChanges::Form::real:
+      // Packed are the eight bytes of a real that happen to be digits.
+      hand_over_real(change.net,
+                     change.as_written()
+                         ? change.bytes
+                         : digits_of_byte[static_cast<unsigned char>(*change.bytes)].data(),
                      handler);
+      break;
+    case FstChanges::Form::text: {
+      WaveValue value;
+      value.kind = WaveVariable::Kind::text;
+      value.known = true;
+      value.text = FstChanges::text(change);
+      if (!is_utf8(value.text)) value.text = text_ = in_utf8(value.text);
+      handler.change(change.net, value);
+      break;
     }
-  } else if (form.length() == 1) {
-    WaveValue value;
-    if (as_written) {
-      hand_over_bits(net, fst::letters.substr(head >> 1 & 7, 1), handler);
-      return;
-    }
-    value.known = true;
-    value.bits = head >> 1 & 1;
-    value.text = std::string_view("01").substr(value.bits, 1);
-    handler.change(net, value);
-  } else if (as_written) {
-    hand_over_bits(net, {take(chain, form.length()), form.length()}, handler);
-  } else {
-    if (form.is_port) corrupt_changes();
-    const unsigned count = (form.width + 7) / 8;
-    const char* bytes = take(chain, count);
-    text_.resize(std::size_t{count} * 8);
-    unsigned __int128 all = 0;
-    for (unsigned i = 0; i < count; ++i) {
-      const auto byte = static_cast<unsigned char>(bytes[i]);
-      std::memcpy(&text_[std::size_t{i} * 8], digits_of_byte[byte].data(), 8);
-      all = all << 8 | byte;
-    }
-    WaveValue value;
-    value.known = true;
-    value.bits = static_cast<std::uint64_t>(all >> (count * 8 - form.width));
-    value.text = std::string_view(text_).substr(0, form.width);
-    handler.change(net, value);
   }
+}
+
+void FstReader::hand_over_packed(const FstChanges::Change& change, WaveHandler& handler) {
+  const Net& form = nets_[change.net];
+  if (form.is_port) corrupt_changes();
+  WaveValue value;
+  value.known = value.plain = true;
+  if (form.width <= FstChanges::widest_bits) {
+    value.bits = change.bits;
+    if (needs_texts_) value.text = digits_of(value.bits, form.width);
+  } else {
+    const unsigned count = (form.width + 7) / 8;
+    text_.resize(std::size_t{count} * 8);
+    for (unsigned i = 0; i < count; ++i) {
+      const auto byte = static_cast<unsigned char>(change.bytes[i]);
+      std::memcpy(&text_[std::size_t{i} * 8], digits_of_byte[byte].data(), 8);
+    }
+    value.text = std::string_view(text_).substr(0, form.width);
+    // The lowest 64 bits are in the last nine bytes, or eight if they end with the last one.
+    unsigned __int128 last = 0;
+    for (unsigned i = count > 9 ? count - 9 : 0; i < count; ++i)
+      last = last << 8 | static_cast<unsigned char>(change.bytes[i]);
+    value.bits = static_cast<std::uint64_t>(last >> (count * 8 - form.width));
+  }
+  handler.change(change.net, value);
+}
+
+std::string_view FstReader::digits_of(std::uint64_t bits, unsigned width) {
+  constexpr unsigned most = 64;
+  text_.resize(most);
+  for (unsigned i = 0; i < most / 8; ++i)
+    std::memcpy(&text_[std::size_t{i} * 8],
+                digits_of_byte[bits >> (most - 8 - i * 8) & 0xff].data(), 8);
+  return std::string_view(text_).substr(most - width);
 }
 
 void FstReader::hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler) {
@@ -366,6 +388,7 @@ void FstReader::hand_over_bits(std::uint32_t net, std::string_view digits, WaveH
   }
   WaveValue value;
   value.known = decoded.known;
+  value.plain = decoded.plain;
   value.bits = decoded.bits;
   value.text = digits;
   handler.change(net, value);
@@ -379,12 +402,14 @@ void FstReader::hand_over_real(std::uint32_t net, const char* bytes, WaveHandler
   value.kind = WaveVariable::Kind::real;
   std::memcpy(&value.real, &bits, sizeof bits);
   value.known = std::isfinite(value.real);
-  constexpr std::size_t longest = 32;
-  text_.resize(longest);
-  const auto end = std::to_chars(text_.data(), text_.data() + longest, value.real).ptr;
-  value.text = std::isnan(value.real) ? std::string_view("nan")
-                                      : std::string_view(text_).substr(
-                                            0, static_cast<std::size_t>(end - text_.data()));
+  if (needs_texts_ || !value.known) {
+    constexpr std::size_t longest = 32;
+    text_.resize(longest);
+    const auto end = std::to_chars(text_.data(), text_.data() + longest, value.real).ptr;
+    value.text = std::isnan(value.real) ? std::string_view("nan")
+                                        : std::string_view(text_).substr(
+                                              0, static_cast<std::size_t>(end - text_.data()));
+  }
   handler.change(net, value);
 }
 

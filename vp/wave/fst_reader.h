@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include <vp/wave_reader.h>
 
 #include "byte_arena.h"
+#include "fst_changes.h"
 #include "fst_file.h"
 #include "wave_declared.h"
 
@@ -27,15 +27,12 @@ class FstReader {
     /// Characters of a value that is written as it is.
     std::size_t length() const { return is_port ? std::size_t{width} * 3 + 2 : width; }
   };
-  /// Takes a time in the file's steps; false: enough for now.
-  using Time = std::function<bool(std::uint64_t)>;
-
   /// Reads the hierarchy. Throws InputError.
   explicit FstReader(const std::filesystem::path& file);
 
   const std::vector<Net>& nets() const { return nets_; }
   /// In the order of the file.
-  std::vector<WaveDeclared>& declared() { return declared_; }
+  WaveDeclarations& declared() { return declared_; }
   std::vector<WaveEnumeration>& enumerations() { return enumerations_.all; }
   std::uint64_t timescale_fs() const { return timescale_fs_; }
   std::uint64_t bytes() const { return file_.size(); }
@@ -47,16 +44,10 @@ class FstReader {
   /// The next read() begins with the values at the start of a block, or of an earlier one.
   void enter(std::uint64_t block) { entry_ = block; }
   /// Hands over the changes of the selected nets, from where the last call stopped to the end or
-  /// until `at` has enough. Throws InputError.
-  void read(const std::vector<bool>& selected, const Time& at, WaveHandler& handler);
+  /// until the clock has enough. Throws InputError.
+  void read(const std::vector<bool>& selected, WaveClock& clock, WaveHandler& handler);
 
  private:
-  /// The changes of a net in a block, of which those before `next` were handed over.
-  struct Chain {
-    const char* next = nullptr;
-    const char* end = nullptr;
-    std::uint64_t head = 0;  ///< of the change that is due: its time, and how it is written
-  };
   /// Where the chain of a handle is among the bytes of a block.
   struct Place {
     std::uint64_t at = 0;  ///< in the file; 0: no changes
@@ -75,23 +66,24 @@ class FstReader {
                   bool entered);
   /// Returns where the table of chains ends.
   std::uint64_t read_times(const fst::File::Section& section);
+  std::uint64_t next_time();
   std::vector<Place> read_places(const fst::File::Section& section, std::uint64_t changes_at,
                                  std::uint64_t table_end, std::uint64_t handles) const;
   void unpack_chains(const std::vector<Place>& places, char method,
                      const std::vector<bool>& selected);
-  void schedule(std::uint32_t net, std::size_t from);
+  FstChanges::Chain chain_of(std::uint32_t net, std::string_view bytes) const;
   void hand_over_frame(const std::vector<bool>& selected, WaveHandler& handler);
-  bool hand_over_block(const Time& at, const std::vector<bool>& selected, WaveHandler& handler);
-  void hand_over(std::uint32_t net, WaveHandler& handler);
-  std::uint64_t varint(Chain& chain) const;
-  const char* take(Chain& chain, std::uint64_t size) const;
+  bool hand_over_block(WaveClock& clock, const std::vector<bool>& selected, WaveHandler& handler);
+  void hand_over(const FstChanges::Change& change, WaveHandler& handler);
+  std::string_view digits_of(std::uint64_t bits, unsigned width);
+  void hand_over_packed(const FstChanges::Change& change, WaveHandler& handler);
   void hand_over_bits(std::uint32_t net, std::string_view digits, WaveHandler& handler);
   void hand_over_real(std::uint32_t net, const char* bytes, WaveHandler& handler);
   [[noreturn]] void corrupt_changes() const;
 
   fst::File file_;
   std::vector<Net> nets_;
-  std::vector<WaveDeclared> declared_;
+  WaveDeclarations declared_;
   WaveEnumerations enumerations_;
   std::uint64_t timescale_fs_ = 1;
   std::uint64_t handles_ = 0;  ///< declared so far
@@ -106,12 +98,15 @@ class FstReader {
   std::optional<std::uint64_t> entry_;
   std::vector<std::uint64_t> starts_;  ///< times of the blocks, once they are asked for
   std::uint64_t block_start_ = 0, block_end_ = 0;
-  std::vector<std::uint64_t> times_;
+  std::string times_;           ///< a number for each instant: the steps since the one before
+  std::uint64_t times_at_ = 0;  ///< in the file
+  std::size_t times_taken_ = 0, instants_ = 0;
+  std::uint64_t now_ = 0;  ///< of `instant_`, once it was announced
   std::string frame_;
-  ByteArena unpacked_;                   ///< chains point into it
-  std::vector<Chain> chains_;            ///< by net
-  std::vector<std::uint32_t> due_;       ///< by instant: net + 1 of the first that changes in it
-  std::vector<std::uint32_t> also_due_;  ///< by net: net + 1 of the next in the same instant
+  std::string window_;  ///< bytes of the file, read at once
+  ByteArena unpacked_;  ///< chains point into it
+  FstChanges changes_;
+  bool needs_texts_ = true;  ///< of the handler
   std::string text_;
 };
 

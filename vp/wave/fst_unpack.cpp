@@ -1,8 +1,10 @@
+#include <libdeflate.h>
 #include <lz4.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <new>
 #include <utility>
 
 #include "fst_file.h"
@@ -11,20 +13,19 @@ namespace vp::fst {
 
 namespace {
 
-/// zlib's streams and gzip's.
+/// zlib's streams and gzip's. Two to three times as fast as zlib itself.
 bool inflated(std::string_view packed, char* to, std::size_t size) {
-  constexpr int any_header = 15 + 32;
-  constexpr std::size_t most = std::numeric_limits<uInt>::max();
-  z_stream stream{};
-  if (packed.size() > most || size > most || inflateInit2(&stream, any_header) != Z_OK)
-    return false;
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(packed.size());
-  stream.next_out = reinterpret_cast<Bytef*>(to);
-  stream.avail_out = static_cast<uInt>(size);
-  const int result = inflate(&stream, Z_FINISH);
-  inflateEnd(&stream);
-  return result == Z_STREAM_END && stream.avail_out == 0;
+  struct Free {
+    void operator()(libdeflate_decompressor* tables) const { libdeflate_free_decompressor(tables); }
+  };
+  thread_local const std::unique_ptr<libdeflate_decompressor, Free> tables(
+      libdeflate_alloc_decompressor());
+  if (!tables) throw std::bad_alloc();
+  const bool is_gzip = packed.substr(0, 2) == "\x1f\x8b";
+  const auto decompress = is_gzip ? libdeflate_gzip_decompress : libdeflate_zlib_decompress;
+  // Without a place for the number of bytes that came out it must be `size`.
+  return decompress(tables.get(), packed.data(), packed.size(), to, size, nullptr) ==
+         LIBDEFLATE_SUCCESS;
 }
 
 // FastLZ, levels 1 and 2. A stream is a sequence of literal runs (control byte below 32: so many

@@ -13,10 +13,6 @@ namespace vp {
 
 namespace {
 
-constexpr std::size_t deepest = 1000;
-constexpr std::size_t longest_path = 1 << 16;
-constexpr std::uint64_t largest_paths = std::uint64_t{1} << 30;
-constexpr unsigned widest = 1 << 20;
 constexpr std::uint64_t fs_per_ns = 1'000'000;
 constexpr const char* header = "the header";
 
@@ -90,7 +86,7 @@ void VcdReader::read_header() {
       word.remove_prefix(3);
       if (word.empty()) word = next(header);
     }
-    if (!declared_.empty() && begins_values(word)) {
+    if (declared_.size() != 0 && begins_values(word)) {
       window_.cursor = word.data();
       note("has no $enddefinitions: the header ends with the first value");
       break;
@@ -104,7 +100,7 @@ void VcdReader::read_header() {
            (first ? ": this is no VCD" : " in the header"));
     }
   }
-  if (declared_.empty()) fail("the header declares no signal");
+  if (declared_.size() == 0) fail("the header declares no signal");
   if (timescale_fs_ == 0) {
     timescale_fs_ = options_.timescale_fs != 0 ? options_.timescale_fs : fs_per_ns;
     if (options_.timescale_fs == 0)
@@ -164,7 +160,7 @@ void VcdReader::read_scope() {
       if (name.size() > longest_path) fail("the name of a scope has more than 64 KiB");
     }
   }
-  if (scopes_.size() == deepest) fail("more than 1000 scopes inside each other");
+  if (scopes_.size() == deepest_scope) fail("more than 1000 scopes inside each other");
   // A scope without a name adds no level.
   Scope scope{scopes_.empty() ? "" : scopes_.back().path,
               type == "sv_array" || type == "vhdl_array"};
@@ -221,19 +217,19 @@ void VcdReader::read_variable() {
   variable.is_event = type == "event";
   const bool is_bits = variable.kind == WaveVariable::Kind::bits;
   std::uint64_t width = 0;
-  if (!read_size(size, width) || width > widest)
+  if (!read_size(size, width) || width > widest_signal)
     fail("the size " + shown(size) + " of signal " + shown(name) + " is not 0 to 1048576");
   variable.width = !is_bits || variable.is_event ? 1 : static_cast<unsigned>(width);
-  if (!scopes_.empty()) variable.path = scopes_.back().path;
-  variable.path += clean_name(name);
-  path_bytes_ += variable.path.size();
-  if (variable.path.size() > longest_path || path_bytes_ > largest_paths)
+  if (!scopes_.empty()) declared.path = scopes_.back().path;
+  declared.path += clean_name(name);
+  path_bytes_ += declared.path.size();
+  if (declared.path.size() > longest_path || path_bytes_ > largest_paths)
     fail("names of more than 64 KiB, or of 1 GiB together");
   variable.net = declare_net(code, variable.kind, variable.width, variable.is_event);
   variable.enumeration = enumerations_.take();
   take_range(declared);
   if (!scopes_.empty() && scopes_.back().is_array) declared.may_join = false;
-  declared_.push_back(std::move(declared));
+  declared_.add(declared);
 }
 
 std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind kind, unsigned width,
@@ -253,7 +249,11 @@ std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind k
     place = &by_long_code_[code];
   }
   if (*place == 0) {
-    nets_.push_back({kind, is_event, false, width});
+    Net net{};
+    net.width = width & 0xffffff;
+    net.kind = kind;
+    net.is_event = is_event;
+    nets_.push_back(net);
     return (*place = static_cast<std::uint32_t>(nets_.size())) - 1;
   }
   Net& net = nets_[*place - 1];
@@ -261,7 +261,7 @@ std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind k
     note(
         "an identifier is declared with several types or sizes: it has the first type and the "
         "largest size");
-    net.width = std::max(net.width, width);
+    if (width > net.width) net.width = width & 0xffffff;
     retyped_ = true;
   }
   return *place - 1;
@@ -271,13 +271,19 @@ std::uint32_t VcdReader::declare_net(std::string_view code, WaveVariable::Kind k
 void VcdReader::finish_declarations() {
   scopes_.clear();
   if (!retyped_) return;
-  for (WaveDeclared& declared : declared_) {
-    const Net& net = nets_[declared.variable.net];
-    if (net.kind != declared.variable.kind || net.width != declared.variable.width)
-      declared.may_join = false;
-    declared.variable.kind = net.kind;
-    declared.variable.width = net.width;
-    declared.variable.is_event = net.is_event;
+  std::vector<WaveVariable>& variables = declared_.variables;
+  const auto changes = [&](const WaveDeclarations::Range& range) {
+    const WaveVariable& variable = variables[range.place];
+    const Net& net = nets_[variable.net];
+    return net.kind != variable.kind || net.width != variable.width;
+  };
+  std::vector<WaveDeclarations::Range>& ranges = declared_.ranges;
+  ranges.erase(std::remove_if(ranges.begin(), ranges.end(), changes), ranges.end());
+  for (WaveVariable& variable : variables) {
+    const Net& net = nets_[variable.net];
+    variable.kind = net.kind;
+    variable.width = net.width;
+    variable.is_event = net.is_event;
   }
 }
 

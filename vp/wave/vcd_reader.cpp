@@ -258,6 +258,7 @@ VcdReader::Status VcdReader::read_window(Clock& clock, WaveHandler& handler) {
       }
       WaveValue value;
       value.known = letter.known;
+      value.plain = letter.small == '0' || letter.small == '1';
       value.bits = letter.bit > 0 ? 1 : 0;
       value.text = {&letters[static_cast<unsigned char>(letter.small)].small, 1};
       handler.change(net - 1, value);
@@ -286,7 +287,7 @@ VcdReader::Status VcdReader::read_window(Clock& clock, WaveHandler& handler) {
         continue;
       }
       WaveValue value;
-      value.known = true;
+      value.known = value.plain = true;
       value.bits = bits;
       value.text = text;
       handler.change(net - 1, value);

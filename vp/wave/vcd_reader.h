@@ -18,24 +18,20 @@ namespace vp {
 /// tools that write them.
 class VcdReader {
  public:
+  /// Four bytes, as there may be millions.
   struct Net {
-    WaveVariable::Kind kind;
-    bool is_event;
-    bool selected;
-    unsigned width;
+    unsigned width : 24;
+    WaveVariable::Kind kind : 2;
+    bool is_event : 1;
+    bool selected : 1;
   };
-  /// Takes a time in the file's steps. False: enough for now.
-  class Clock {
-   public:
-    virtual ~Clock() = default;
-    virtual bool reach(std::uint64_t steps) = 0;
-  };
+  using Clock = WaveClock;
 
   /// Reads the header. Throws InputError.
   VcdReader(const std::filesystem::path& file, const WaveOptions& options, WaveNotes& notes);
 
   const std::vector<Net>& nets() const { return nets_; }
-  std::vector<WaveDeclared>& declared() { return declared_; }
+  WaveDeclarations& declared() { return declared_; }
   std::vector<WaveEnumeration>& enumerations() { return enumerations_.all; }
   std::uint64_t timescale_fs() const { return timescale_fs_; }
   std::uint64_t bytes() const { return window_.bytes(); }
@@ -118,7 +114,7 @@ class VcdReader {
   bool single_ = false;          ///< a window is left behind its first word
 
   std::vector<Net> nets_;
-  std::vector<WaveDeclared> declared_;
+  WaveDeclarations declared_;
   std::vector<std::uint32_t> by_short_code_;  ///< net + 1; 0: none
   CodeTable by_long_code_;                    ///< the same
   struct Scope {

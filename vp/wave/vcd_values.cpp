@@ -38,6 +38,7 @@ void VcdReader::read_bits(std::string_view digits, std::uint32_t net, WaveHandle
   }
   WaveValue value;
   value.known = decoded.known;
+  value.plain = decoded.plain;
   value.bits = decoded.bits;
   value.text = digits;
   if (form.kind == WaveVariable::Kind::text) {
@@ -55,6 +56,7 @@ void VcdReader::read_bits(std::string_view digits, std::uint32_t net, WaveHandle
     shorten(digits, form.width);
     decoded = decode_digits(digits);
     value.known = decoded.known;
+    value.plain = decoded.plain;
     value.bits = decoded.bits;
     value.text = digits;
   } else if (digits.size() < form.width &&
@@ -105,6 +107,7 @@ void VcdReader::read_text(std::string_view text, std::uint32_t net, WaveHandler&
   if (nets_[net].kind != WaveVariable::Kind::text)
     note("a signal of bits or numbers has words as values: it is a text from there on");
   unescape(text, text_);
+  if (!is_utf8(text_)) text_ = in_utf8(text_);
   WaveValue value;
   value.kind = WaveVariable::Kind::text;
   value.known = true;

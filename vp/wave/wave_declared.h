@@ -10,13 +10,65 @@
 
 namespace vp {
 
+/// Limits of what a file may declare: levels, bytes of a path and of all paths, bits.
+constexpr std::size_t deepest_scope = 1000;
+constexpr std::size_t longest_path = 1 << 16;
+constexpr std::uint64_t largest_paths = std::uint64_t{1} << 30;
+constexpr unsigned widest_signal = 1 << 20;
+
 /// A variable as a file declares it.
 struct WaveDeclared {
+  std::string path;
   WaveVariable variable;   ///< its net is one of the file
   bool may_join = false;   ///< its bits may be a part of a vector
   bool is_single = false;  ///< spelt with one index: "q [3]"
   std::int64_t left = 0, right = 0;
   std::uint64_t line = 0;  ///< of a VCD
+};
+
+/// The variables that a file declares, in its order: a few bytes each, as there may be millions.
+struct WaveDeclarations {
+  /// The bits that a name says it has, if they may be a part of a vector.
+  struct Range {
+    std::uint32_t place;  ///< of the variable
+    bool is_single;
+    std::int64_t left, right;
+  };
+  void add(const WaveDeclared& declared);
+  std::size_t size() const { return variables.size(); }
+
+  WavePaths paths;
+  std::vector<WaveVariable> variables;
+  std::vector<Range> ranges;  ///< by place
+  std::string lines;          ///< of a VCD: for each the lines since the one before
+
+ private:
+  std::uint64_t last_line_ = 0;
+};
+
+/// Finds paths by their hash.
+class NameTable {
+ public:
+  /// Of up to `most` paths.
+  explicit NameTable(std::size_t most);
+  /// The place of `path` among `paths`, as it was put in; -1 if missing.
+  std::int64_t find(std::string_view path, const WavePaths& paths) const;
+  /// The same; if it is missing it is put in with `place`.
+  std::int64_t find_or_put(std::string_view path, const WavePaths& paths, std::size_t place);
+
+ private:
+  std::size_t slot_of(std::string_view path, std::size_t hash, const WavePaths& paths) const;
+  std::uint32_t tag_of(std::size_t hash) const;
+
+  std::uint32_t place_mask_ = 1;  ///< other bits are of the hash: most paths are told apart by them
+  std::vector<std::uint32_t> places_;  ///< + 1
+};
+
+/// Takes a time in the file's steps. False: enough for now.
+class WaveClock {
+ public:
+  virtual ~WaveClock() = default;
+  virtual bool reach(std::uint64_t steps) = 0;
 };
 
 /// Takes the range off the end of the path: " [7:0]", " [3]", "[7:0]". A single index right behind
@@ -44,7 +96,10 @@ void unescape(std::string_view from, std::string& to);
 /// For messages: what a file says may be anything.
 std::string shown(std::string_view word);
 
-/// The name in UTF-8: bytes that are no UTF-8 are taken as Latin-1; control characters become '?'.
+bool is_utf8(std::string_view text);
+/// The text in UTF-8: bytes that are no UTF-8 are taken as Latin-1.
+std::string in_utf8(std::string_view text);
+/// The same of a name, whose control characters become '?'.
 std::string clean_name(std::string_view name);
 
 /// What is odd about a file, each kind once with its count and first line.
@@ -73,17 +128,14 @@ struct WavePart {
 
 /// The variables of a file under names of their own, and the vectors that are made of several.
 struct WaveNames {
+  WavePaths paths;
   std::vector<WaveVariable> variables;
   std::vector<std::vector<WavePart>> joined;  ///< by net, less `nets`; the leftmost part first
-  std::vector<std::uint32_t> table;           ///< places in `variables` + 1, by hash of the path
+  NameTable table;
 };
 
 /// `nets`: that the file has. Adds to `notes` what it had to rename.
-WaveNames named(std::vector<WaveDeclared> declared, std::uint32_t nets, WaveNotes& notes);
-
-/// The place of a path in names made by named(); -1 if missing.
-std::int64_t place_of(std::string_view path, const std::vector<WaveVariable>& variables,
-                      const std::vector<std::uint32_t>& table);
+WaveNames named(WaveDeclarations declared, std::uint32_t nets, WaveNotes& notes);
 
 /// Hands over vectors made of parts, once an instant.
 class WaveJoiner final : public WaveHandler {
@@ -122,10 +174,10 @@ class WaveJoiner final : public WaveHandler {
   const std::vector<bool>* selected_ = nullptr;
 };
 
-/// The bits of digits: known if all are 0, 1, l or h. `letters`: some digit is neither 0 nor 1.
+/// The bits of digits: known if all are 0, 1, l or h; plain if all are 0 or 1.
 struct DecodedDigits {
   std::uint64_t bits = 0;
-  bool known = true, letters = false, capitals = false, valid = true;
+  bool known = true, plain = true, capitals = false, valid = true;
 };
 DecodedDigits decode_digits(std::string_view digits);
 

@@ -1,3 +1,5 @@
+#include <array>
+#include <cstdint>
 #include <utility>
 
 #include "wave_declared.h"
@@ -18,25 +20,50 @@ char state_of_port(char c) {
   return std::string_view("NX?AaBbCc").find(c) != std::string_view::npos ? 'x' : '\0';
 }
 
+namespace {
+
+/// What a digit means, as flags that add up over a value.
+enum DigitFlag : std::uint8_t {
+  is_one = 1,
+  is_letter = 2,
+  is_capital = 4,
+  is_unknown = 8,
+  is_invalid = 16
+};
+
+constexpr std::array<std::uint8_t, 256> make_digit_flags() {
+  std::array<std::uint8_t, 256> flags{};
+  for (std::uint8_t& flag : flags) flag = is_letter | is_unknown | is_invalid;
+  const auto set = [&flags](char c, unsigned flag) {
+    flags[static_cast<unsigned char>(c)] = static_cast<std::uint8_t>(flag);
+    const bool has_capital = c >= 'a' && c <= 'z';
+    if (has_capital)
+      flags[static_cast<unsigned char>(c - 'a' + 'A')] =
+          static_cast<std::uint8_t>(flag | is_capital);
+  };
+  set('0', 0);
+  set('1', is_one);
+  set('l', is_letter);
+  set('h', is_letter | is_one);
+  for (const char c : std::string_view("xzuw-?")) set(c, is_letter | is_unknown);
+  return flags;
+}
+constexpr auto digit_flags = make_digit_flags();
+
+}  // namespace
+
 DecodedDigits decode_digits(std::string_view digits) {
   DecodedDigits decoded;
+  unsigned all = 0;
   for (const char digit : digits) {
-    decoded.bits <<= 1;
-    if (digit == '0' || digit == '1') {
-      decoded.bits |= digit & 1;
-      continue;
-    }
-    decoded.letters = true;
-    const bool capital = digit >= 'A' && digit <= 'Z';
-    decoded.capitals = decoded.capitals || capital;
-    const char c = static_cast<char>(capital ? digit - 'A' + 'a' : digit);
-    if (c == 'h' || c == 'l') {
-      decoded.bits |= c == 'h';
-      continue;
-    }
-    decoded.known = false;
-    if (std::string_view("xzuw-?").find(c) == std::string_view::npos) decoded.valid = false;
+    const unsigned flags = digit_flags[static_cast<unsigned char>(digit)];
+    decoded.bits = decoded.bits << 1 | (flags & is_one);
+    all |= flags;
   }
+  decoded.plain = (all & is_letter) == 0;
+  decoded.capitals = (all & is_capital) != 0;
+  decoded.known = (all & is_unknown) == 0;
+  decoded.valid = (all & is_invalid) == 0;
   if (!decoded.known) decoded.bits = 0;
   return decoded;
 }
@@ -92,6 +119,7 @@ void WaveJoiner::flush() {
     const DecodedDigits decoded = decode_digits(joined.digits);
     WaveValue value;
     value.known = decoded.known;
+    value.plain = decoded.plain;
     value.bits = decoded.bits;
     value.text = joined.digits;
     next_->change(nets_ + place, value);

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <charconv>
-#include <functional>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -45,16 +43,10 @@ std::uint64_t bits_of(std::int64_t left, std::int64_t right) {
   return static_cast<std::uint64_t>(span < 0 ? -span : span) + 1;
 }
 
-std::string with_range(const WaveDeclared& declared) {
-  std::string text = declared.variable.path + "[" + std::to_string(declared.left);
-  if (declared.left != declared.right) text += ":" + std::to_string(declared.right);
-  return text + "]";
-}
-
 }  // namespace
 
 void take_range(WaveDeclared& declared) {
-  std::string& path = declared.variable.path;
+  std::string& path = declared.path;
   const Range range = range_of(path);
   if (range.begin == std::string::npos || path[range.begin - 1] == '.') return;
   const WaveVariable& variable = declared.variable;
@@ -76,188 +68,6 @@ void take_range(WaveDeclared& declared) {
   declared.right = range.right;
   declared.may_join = fits;
   declared.is_single = range.is_single;
-}
-
-namespace {
-
-/// Finds paths; the table grows with them.
-class NameTable {
- public:
-  explicit NameTable(std::size_t most) : places_(std::size_t{16}) {
-    while (places_.size() < most * 2) places_.resize(places_.size() * 2);
-  }
-  /// The slot of a path: 0 in it if missing.
-  template <class PathAt>
-  std::uint32_t& slot(std::string_view path, const PathAt& path_at) {
-    const std::size_t mask = places_.size() - 1;
-    for (std::size_t i = std::hash<std::string_view>{}(path)&mask;; i = (i + 1) & mask) {
-      if (places_[i] == 0 || path_at(places_[i] - 1) == path) return places_[i];
-    }
-  }
-  std::vector<std::uint32_t> take() { return std::move(places_); }
-
- private:
-  std::vector<std::uint32_t> places_;
-};
-
-/// Declarations of one name in one scope: parts of a vector, or several signals.
-class Namer {
- public:
-  Namer(std::vector<WaveDeclared> declared, std::uint32_t nets, WaveNotes& notes)
-      : all_(std::move(declared)), nets_(nets), notes_(notes), gone_(all_.size()) {}
-
-  WaveNames names() {
-    gather();
-    for (auto& [first, group] : groups_) settle(group);
-    number();
-    WaveNames names;
-    for (std::size_t i = 0; i < all_.size(); ++i) {
-      if (!gone_[i]) names.variables.push_back(std::move(all_[i].variable));
-    }
-    names.joined = std::move(joined_);
-    NameTable table(names.variables.size());
-    for (std::uint32_t i = 0; i < names.variables.size(); ++i) {
-      const auto path_at = [&](std::uint32_t place) -> std::string_view {
-        return names.variables[place].path;
-      };
-      table.slot(names.variables[i].path, path_at) = i + 1;
-    }
-    names.table = table.take();
-    return names;
-  }
-
- private:
-  using Place = std::uint32_t;
-
-  /// Finds declarations of one name. The same net again is the same signal.
-  void gather() {
-    NameTable table(all_.size());
-    const auto path_at = [&](Place place) -> std::string_view { return all_[place].variable.path; };
-    for (Place i = 0; i < all_.size(); ++i) {
-      Place& first = table.slot(all_[i].variable.path, path_at);
-      if (first == 0) {
-        first = i + 1;
-        if (is_single(all_[i])) groups_[i] = {i};
-        continue;
-      }
-      auto& group = groups_[first - 1];
-      if (group.empty()) group.push_back(first - 1);
-      const auto same = [&](Place other) {
-        const WaveDeclared &a = all_[other], &b = all_[i];
-        // One net under [15:0] and [0:15] is one signal; bits that share a net are not.
-        return a.variable.net == b.variable.net && (!is_single(a) || a.left == b.left);
-      };
-      if (std::any_of(group.begin(), group.end(), same)) {
-        gone_[i] = true;
-      } else {
-        group.push_back(i);
-      }
-    }
-  }
-  static bool is_single(const WaveDeclared& declared) {
-    return declared.may_join && declared.is_single;
-  }
-
-  void settle(std::vector<Place>& group) {
-    if (group.size() > 1 && join(group)) return;
-    const bool parts =
-        std::all_of(group.begin(), group.end(), [&](Place place) { return all_[place].may_join; });
-    const bool any = std::any_of(group.begin(), group.end(),
-                                 [&](Place place) { return is_single(all_[place]); });
-    if (!parts || !any) return;
-    for (const Place place : group) all_[place].variable.path = with_range(all_[place]);
-  }
-
-  /// Parts that adjoin, from the left to the right, up or down.
-  bool adjoin(const std::vector<Place>& group) const {
-    int direction = 0;
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const WaveDeclared& part = all_[group[i]];
-      if (!part.may_join) return false;
-      const auto go = [&](int step) {
-        if (direction == 0) direction = step;
-        return direction == step;
-      };
-      if (part.left != part.right && !go(part.left > part.right ? -1 : 1)) return false;
-      if (i == 0) continue;
-      const auto step = static_cast<__int128>(part.left) - all_[group[i - 1]].right;
-      if ((step != 1 && step != -1) || !go(static_cast<int>(step))) return false;
-    }
-    return true;
-  }
-
-  bool join(std::vector<Place>& group) {
-    if (!adjoin(group)) {
-      std::vector<Place> sorted = group;
-      std::stable_sort(sorted.begin(), sorted.end(),
-                       [&](Place a, Place b) { return all_[a].left > all_[b].left; });
-      if (!adjoin(sorted)) return false;
-      group.swap(sorted);
-    }
-    std::vector<WavePart> parts;
-    std::vector<std::uint64_t> key;
-    unsigned width = 0;
-    for (const Place place : group) {
-      const WaveVariable& part = all_[place].variable;
-      parts.push_back({part.net, part.width});
-      key.push_back(std::uint64_t{part.net} << 32 | part.width);
-      width += part.width;
-      gone_[place] = true;
-    }
-    const auto [known, is_new] = nets_of_.emplace(std::move(key), nets_ + joined_.size());
-    if (is_new) joined_.push_back(std::move(parts));
-    const Place first = *std::min_element(group.begin(), group.end());
-    gone_[first] = false;
-    all_[first].variable.net = static_cast<std::uint32_t>(known->second);
-    all_[first].variable.width = width;
-    return true;
-  }
-
-  /// What has the name of another signal gets a number.
-  void number() {
-    NameTable table(all_.size());
-    const auto path_at = [&](Place place) -> std::string_view { return all_[place].variable.path; };
-    std::unordered_map<std::string, unsigned> next;
-    for (Place i = 0; i < all_.size(); ++i) {
-      if (gone_[i]) continue;
-      std::string& path = all_[i].variable.path;
-      if (table.slot(path, path_at) != 0) {
-        notes_.add("a name is declared again with other values: it is called " +
-                       shown(path + "#2") + " here",
-                   all_[i].line);
-        unsigned& count = next[path];
-        const std::string base = path;
-        do {
-          path = base + "#" + std::to_string(++count + 1);
-        } while (table.slot(path, path_at) != 0);
-      }
-      table.slot(path, path_at) = i + 1;
-    }
-  }
-
-  std::vector<WaveDeclared> all_;
-  std::uint32_t nets_;
-  WaveNotes& notes_;
-  std::vector<bool> gone_;
-  std::map<Place, std::vector<Place>> groups_;  ///< by the first of a name
-  std::map<std::vector<std::uint64_t>, std::size_t> nets_of_;
-  std::vector<std::vector<WavePart>> joined_;
-};
-
-}  // namespace
-
-WaveNames named(std::vector<WaveDeclared> declared, std::uint32_t nets, WaveNotes& notes) {
-  return Namer(std::move(declared), nets, notes).names();
-}
-
-std::int64_t place_of(std::string_view path, const std::vector<WaveVariable>& variables,
-                      const std::vector<std::uint32_t>& table) {
-  const std::size_t mask = table.size() - 1;
-  for (std::size_t i = std::hash<std::string_view>{}(path)&mask; table[i] != 0;
-       i = (i + 1) & mask) {
-    if (variables[table[i] - 1].path == path) return table[i] - 1;
-  }
-  return -1;
 }
 
 void WaveNotes::add(const std::string& text, std::uint64_t line) {
@@ -305,11 +115,11 @@ void WaveEnumerations::attribute(std::string_view text, std::uint64_t handle) {
     std::from_chars(words[1].data(), words[1].data() + words[1].size(), count);
   }
   if (count == 0 || count > words.size() || words.size() < 2 + 2 * count) return;
-  WaveEnumeration table{words[0], {}};
+  WaveEnumeration table{in_utf8(words[0]), {}};
   for (std::size_t i = 0; i < count; ++i) {
     std::string word;
     unescape(words[2 + i], word);
-    table.words.emplace_back(words[2 + count + i], word);
+    table.words.emplace_back(words[2 + count + i], in_utf8(word));
   }
   place_of_[handle] = static_cast<std::uint32_t>(all.size());
   all.push_back(std::move(table));
@@ -362,23 +172,41 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+void add_latin1(std::string& text, unsigned char byte) {
+  text += static_cast<char>(0xc0 | byte >> 6);
+  text += static_cast<char>(0x80 | (byte & 0x3f));
+}
+
 }  // namespace
 
-std::string clean_name(std::string_view name) {
-  std::string clean;
-  while (!name.empty()) {
-    const auto first = static_cast<unsigned char>(name.front());
-    std::size_t length = utf8_length(name);
-    if (length == 0) {
-      length = 1;
-      clean += static_cast<char>(0xc0 | first >> 6);
-      clean += static_cast<char>(0x80 | (first & 0x3f));
-    } else if (first < ' ' || first == 0x7f) {
-      clean += '?';
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string in_utf8(std::string_view text) {
+  std::string result;
+  for (std::size_t length = 0; !text.empty(); text.remove_prefix(length)) {
+    length = utf8_length(text);
+    if (length != 0) {
+      result += text.substr(0, length);
     } else {
-      clean += name.substr(0, length);
+      add_latin1(result, static_cast<unsigned char>(text.front()));
+      length = 1;
     }
-    name.remove_prefix(length);
+  }
+  return result;
+}
+
+std::string clean_name(std::string_view name) {
+  std::string clean = in_utf8(name);
+  for (char& c : clean) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < ' ' || byte == 0x7f) c = '?';
   }
   return clean;
 }

@@ -2,6 +2,7 @@
 #include <vp/file.h>
 #include <vp/wave_reader.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -13,6 +14,8 @@
 namespace vp {
 
 namespace {
+
+constexpr std::uint64_t fs_per_ps = 1000;
 
 /// An FST begins with its header block, type 0, or is packed as a whole, type 254.
 bool looks_like_fst(const std::filesystem::path& file) {
@@ -52,11 +55,18 @@ WaveReader::WaveReader(const std::filesystem::path& file, const WaveOptions& opt
 
 WaveReader::~WaveReader() = default;
 
-void WaveReader::declare(std::vector<WaveDeclared> declared) {
+void WaveReader::declare(WaveDeclarations declared) {
+  constexpr auto latest_fs =
+      static_cast<unsigned __int128>(std::numeric_limits<std::int64_t>::max()) * fs_per_ps;
+  constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
+  latest_steps_ =
+      static_cast<std::uint64_t>(std::min<unsigned __int128>(latest_fs / timescale_fs_, last));
+  ps_per_step_ = timescale_fs_ % fs_per_ps == 0 ? timescale_fs_ / fs_per_ps : 0;
   const auto nets = static_cast<std::uint32_t>(wanted_.size());
   WaveNames names = named(std::move(declared), nets, *notes_);
   variables_ = std::move(names.variables);
-  by_name_ = std::move(names.table);
+  paths_ = std::move(names.paths);
+  by_name_ = std::make_unique<NameTable>(std::move(names.table));
   selected_.resize(nets + names.joined.size());
   if (!names.joined.empty()) joiner_ = std::make_unique<WaveJoiner>(std::move(names.joined), nets);
 }
@@ -69,8 +79,12 @@ std::vector<std::string> WaveReader::warnings() const {
   return notes_->texts();
 }
 
-const WaveVariable* WaveReader::find(const std::string& path) const {
-  const std::int64_t place = place_of(path, variables_, by_name_);
+std::int64_t WaveReader::place_of(std::string_view path) const {
+  return by_name_->find(path, paths_);
+}
+
+const WaveVariable* WaveReader::find(std::string_view path) const {
+  const std::int64_t place = place_of(path);
   return place < 0 ? nullptr : &variables_[static_cast<std::size_t>(place)];
 }
 
@@ -88,7 +102,6 @@ void WaveReader::select_all() {
 }
 
 std::optional<std::uint64_t> WaveReader::entry(std::uint64_t ps) {
-  constexpr unsigned fs_per_ps = 1000;
   constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
   const auto wide = static_cast<unsigned __int128>(ps) * fs_per_ps / timescale_fs_;
   const std::uint64_t steps = wide > last ? last : static_cast<std::uint64_t>(wide);
@@ -134,43 +147,40 @@ void WaveReader::read(WaveHandler& handler) {
     joiner_->begin(handler, selected_);
     next = joiner_.get();
   }
-  bool stopped = false;
-  const auto reach_now = [&](std::uint64_t steps) {
-    stopped = !reach(steps, *next);
-    return !stopped;
-  };
+  struct Clock final : WaveClock {
+    Clock(WaveReader& reader, WaveHandler& handler) : reader(reader), handler(handler) {}
+    bool reach(std::uint64_t steps) override {
+      stopped = !reader.reach(steps, handler);
+      return !stopped;
+    }
+    WaveReader& reader;
+    WaveHandler& handler;
+    bool stopped = false;
+  } clock(*this, *next);
   if (fst_) {
-    fst_->read(wanted_, reach_now, *next);
+    fst_->read(wanted_, clock, *next);
   } else {
-    struct Clock final : VcdReader::Clock {
-      explicit Clock(const decltype(reach_now)& take) : take(take) {}
-      bool reach(std::uint64_t steps) override { return take(steps); }
-      const decltype(reach_now)& take;
-    } clock(reach_now);
     if (entry_) {
       const VcdReader::Place& place = index_->place(*std::exchange(entry_, std::nullopt));
       vcd_->enter(place, index_->last_changes(place, standing()), wanted_, clock, *next);
     }
-    if (!stopped) vcd_->read(wanted_, clock, *next);
+    if (!clock.stopped) vcd_->read(wanted_, clock, *next);
   }
-  if (joiner_ && !stopped) joiner_->flush();
+  if (joiner_ && !clock.stopped) joiner_->flush();
 }
 
 /// In steps of the file's time. False: the handler has enough.
 bool WaveReader::reach(std::uint64_t steps, WaveHandler& handler) {
-  constexpr std::uint64_t fs_per_ps = 1000;
-  const auto fs = static_cast<unsigned __int128>(steps) * timescale_fs_;
-  if (fs > static_cast<unsigned __int128>(std::numeric_limits<std::int64_t>::max()) * fs_per_ps) {
+  if (steps > latest_steps_) {
     const std::string problem =
         "the time " + std::to_string(steps) + " is too late: more than 106 days";
     if (vcd_) vcd_->fail(problem);
     throw InputError("trace '" + file_.string() + "': " + problem);
   }
-  std::uint64_t ps = 0;
+  std::uint64_t ps = steps * ps_per_step_;
   unsigned below = 0;
-  if (timescale_fs_ % fs_per_ps == 0) {
-    ps = steps * (timescale_fs_ / fs_per_ps);
-  } else {
+  if (ps_per_step_ == 0) {
+    const auto fs = static_cast<unsigned __int128>(steps) * timescale_fs_;
     ps = static_cast<std::uint64_t>(fs / fs_per_ps);
     below = static_cast<unsigned>(fs % fs_per_ps);
   }

@@ -26,9 +26,7 @@ constexpr double clocks_per_ps_and_mhz = 1e-6;
 }
 
 std::vector<std::string> paths(const vp::WaveReader& reader) {
-  std::vector<std::string> found;
-  for (const WaveVariable& variable : reader.variables()) found.push_back(variable.path);
-  return found;
+  return reader.paths().all();
 }
 
 std::vector<std::string> paths(const Saif& saif) {
@@ -95,7 +93,9 @@ class Counter final : public vp::WaveHandler {
   /// `clock`: net, or none.
   explicit Counter(std::optional<std::uint32_t> clock) : clock_(clock) {}
 
-  void watch(const WaveVariable& variable) { nets_.try_emplace(variable.net, variable); }
+  void watch(const std::string& path, const WaveVariable& variable) {
+    nets_.try_emplace(variable.net, path, variable.width);
+  }
 
   bool at(std::uint64_t ps) override {
     if (!first_ps_) first_ps_ = ps;
@@ -128,7 +128,7 @@ class Counter final : public vp::WaveHandler {
 
  private:
   struct Net {
-    explicit Net(const WaveVariable& v) : path(v.path), width(v.width), activity(v.width) {}
+    Net(const std::string& name, unsigned bits) : path(name), width(bits), activity(bits) {}
     std::string path;
     unsigned width;
     vp::NetActivity activity;
@@ -148,11 +148,13 @@ ToggleCount count_trace(const ToggleSource& source) {
   Counter counter(clock);
   if (clock) reader.select(*clock);
   bool any = false;
-  for (const WaveVariable& variable : reader.variables()) {
-    if (!is_below(source, variable.path) || (clock && variable.net == *clock) ||
-        variable.width == 0 || variable.is_event || variable.kind != WaveVariable::Kind::bits)
+  std::size_t place = 0;
+  for (const std::string& path : reader.paths()) {
+    const WaveVariable& variable = reader.variables()[place++];
+    if (!is_below(source, path) || (clock && variable.net == *clock) || variable.width == 0 ||
+        variable.is_event || variable.kind != WaveVariable::Kind::bits)
       continue;
-    counter.watch(variable);
+    counter.watch(path, variable);
     reader.select(variable.net);
     any = true;
   }

@@ -125,6 +125,25 @@ BOOST_AUTO_TEST_CASE(stable) {
   BOOST_TEST(verdict(check, "#0 1! b1 \" 0#\n#10 b10 \" 1#\n") == "10 ns: 2 after 1");
 }
 
+// Words, and vectors whose lowest 64 bits are equal.
+BOOST_AUTO_TEST_CASE(all_of_a_value_is_stable) {
+  const auto detail = [](const std::string& check, const std::string& signal,
+                         const std::string& changes) {
+    const Waves waves("a 1, " + signal, changes);
+    kit::write_file(waves / "x.checks", check + "\n");
+    const auto checks = platform::trace::read_checks(waves / "x.checks");
+    platform::trace::TraceFile file(waves.file);
+    return run_checks(file, checks, false).front().detail;
+  };
+  const std::string zeros(64, '0'), check = "n: stable v while a", order = "n: increases v when a";
+  BOOST_TEST(detail(check, "v 100", "#0 1! b1 \"\n#10 b1" + zeros + "1 \"\n") ==
+             "0x20000000000000001 after 1");
+  BOOST_TEST(detail(check, "v 100", "#0 1! b1" + zeros + " \"\n#10 b01" + zeros + " \"\n") == "");
+  BOOST_TEST(detail(order, "v 100", "#0 1! b11" + zeros + " \"\n#10 b10" + zeros + " \"\n") ==
+             "0x20000000000000000 after 0x30000000000000000");
+  BOOST_TEST(detail(check, "v 8", "#0 1! sidle \"\n#10 srun \"\n") == "'run' after 'idle'");
+}
+
 BOOST_AUTO_TEST_CASE(increases) {
   const std::string check = "n: increases b when a restart c rises";
   BOOST_TEST(verdict(check, "#0 0! b0 \" 0#\n#10 1! b1 \"\n#20 b10 \"\n#30 0!\n#40 1! b11 \"\n") ==

@@ -69,6 +69,37 @@ BOOST_AUTO_TEST_CASE(on_the_edges_of_a_clock_with_the_values_before_them) {
   BOOST_TEST(found("stable(data) and data == 5", "clk") == "25-45(2) ");
 }
 
+// Their lowest 64 bits are equal.
+BOOST_AUTO_TEST_CASE(vectors_above_64_bits_are_compared_as_they_are) {
+  const std::string high = "b1" + std::string(80, '0');
+  const std::string wide_changes = "#0 b0 ! b0 \" b101 #\n#10 " + high + " !\n#20 " + high +
+                                   " \"\n#30 b11" + std::string(80, '0') + " !\n#40 bH" +
+                                   std::string(99, '0') + " !\n#50 bx !\n#60\n";
+  const auto wide = [&](const std::string& condition) {
+    const Waves waves("w 100, v 100, n 8", wide_changes);
+    TraceFile file(waves.file);
+    FindOptions options;
+    options.condition = condition;
+    std::string text;
+    find(file, options, [&](const Occurrence& one) {
+      text += std::to_string(one.from_ps / 1000) + "-" + std::to_string(one.until_ps / 1000) + " ";
+      return true;
+    });
+    return text;
+  };
+  BOOST_TEST(wide("w == 0") == "0-10 ");
+  BOOST_TEST(wide("w > 18446744073709551615") == "10-50 ");
+  BOOST_TEST(wide("w == v") == "0-10 20-30 ");
+  BOOST_TEST(wide("w > v") == "10-20 30-50 ");
+  BOOST_TEST(wide("w changes") == "10-10 30-30 40-40 ");
+  BOOST_TEST(wide("not stable(w)") == "10-50 ");
+  BOOST_TEST(wide("w[81:80] == 3") == "30-40 ");
+  BOOST_TEST(wide("w[99]") == "40-50 ");
+  BOOST_TEST(wide("w + 1 > 0 or w < 0") == "0-10 ", "beyond 64 bits arithmetic is unknown");
+  BOOST_TEST(complaint([&] { wide("n[64]"); }).find("bit 64 of a signal of 64 bits at most") !=
+             std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_window_and_an_end) {
   const Waves waves(signals, changes);
   TraceFile file(waves.file);

@@ -106,7 +106,9 @@ BOOST_AUTO_TEST_CASE(mistakes_are_shown_with_their_column) {
       "'a == == 2', column 6: here should be a value: a number, a name, a text in quotes or '('");
   BOOST_TEST(complaint("(a") == "'(a', column 3: a ')' is missing");
   BOOST_TEST(complaint("a b") == "'a b', column 3: an operator is missing, or this is too much");
-  BOOST_TEST(complaint("a[64]").find("a bit is a number from 0 to 63") != std::string::npos);
+  BOOST_TEST(complaint("a[1048576]").find("a bit is a number from 0 to 1048575") !=
+             std::string::npos);
+  BOOST_TEST(complaint("a[64:0]").find("at most 64 bits are taken together") != std::string::npos);
   BOOST_TEST(complaint("a[1:2]").find("[high:low]") != std::string::npos);
   BOOST_TEST(complaint("a = 1") == "'a = 1', column 3: write '==' to compare");
   BOOST_TEST(complaint("a < 3 parsec") == "'a < 3 parsec', column 7: 'parsec' is no unit");

@@ -157,6 +157,117 @@ BOOST_AUTO_TEST_CASE(blocks_follow_each_other_and_only_what_is_wanted_is_read) {
   BOOST_TEST(reader.now_ps() == instants);
 }
 
+namespace {
+
+/// Changes of all kinds at uneven times: long silence, and instants in which everything changes.
+void write_unevenly(const std::string& file, unsigned instants) {
+  constexpr unsigned signals = 300;
+  const auto writer = vp::open_wave_writer(file);
+  writer->add("go", Kind::wire, 1);
+  writer->add("watts", Kind::real, 64);
+  writer->add("state", Kind::text, 1);
+  writer->add("wide", Kind::wire, 100);
+  for (unsigned i = 4; i < signals; ++i)
+    writer->add("s" + std::to_string(i), Kind::wire, i % 5 == 0 ? 1 : i % 70 + 1);
+  writer->begin(0, std::vector<std::uint64_t>(signals, 0));
+  std::uint64_t random = 1;
+  const auto next = [&random](unsigned below) {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<unsigned>((random >> 33) % below);
+  };
+  std::uint64_t now = 0;
+  for (unsigned i = 0; i < instants; ++i) {
+    writer->set_time(now += 1 + next(i % 100 == 0 ? 100'000 : 3));
+    writer->change(0, i % 2);
+    if (i % 3 == 0) writer->change(1, pattern(next(1000) / 8.0));
+    if (i % 7 == 0) writer->change_text(2, "state " + std::to_string(next(50)));
+    if (i % 11 == 0) writer->change_digits(3, std::string(next(100), '1') + "0");
+    const unsigned many = i % 1000 == 999 ? signals - 4 : next(4);
+    for (unsigned k = 0; k < many; ++k) {
+      const unsigned signal = 4 + (many > 4 ? k : next(signals - 4));
+      if (next(9) == 0) {
+        writer->change_digits(signal, "x");
+      } else {
+        writer->change(signal, next(2));
+      }
+    }
+  }
+  writer->close(now + 1);
+}
+
+/// What happens to each net, in the order in which it is handed over.
+struct Story : vp::WaveHandler {
+  explicit Story(const std::string& file, bool texts = true) : texts(texts), reader(file) {
+    reader.select_all();
+    of_net.resize(reader.nets());
+    reader.read(*this);
+  }
+  bool at(std::uint64_t ps) override {
+    BOOST_TEST_REQUIRE((ps >= now));
+    now = ps;
+    return true;
+  }
+  void change(std::uint32_t net, const vp::WaveValue& value) override {
+    const unsigned width = reader.variables()[net].width;
+    std::string text = std::to_string(now) + " ";
+    if (value.kind == vp::WaveVariable::Kind::real) {
+      text += std::to_string(value.real);
+    } else if (value.plain && width <= 64) {
+      text += std::to_string(value.bits);
+    } else {
+      const std::string digits = vp::full_digits(value.text, width);
+      const std::string low = digits.size() > 64 ? digits.substr(digits.size() - 64) : digits;
+      if (value.plain) BOOST_TEST_REQUIRE(value.bits == std::stoull(low, nullptr, 2));
+      text += digits;
+    }
+    of_net[net].push_back(text);
+  }
+  bool needs_texts() const override { return texts; }
+
+  bool texts;
+  vp::WaveReader reader;
+  std::uint64_t now = 0;
+  std::vector<std::vector<std::string>> of_net;
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(uneven_changes_come_in_the_order_of_their_times) {
+  const kit::TemporaryFolder folder;
+  constexpr unsigned instants = 150'000;
+  for (const char* name : {"t.vcd", "t.fst"}) write_unevenly(folder / name, instants);
+  const Story vcd(folder / "t.vcd"), fst(folder / "t.fst"), short_fst(folder / "t.fst", false);
+  BOOST_TEST_REQUIRE(vcd.of_net.size() == fst.of_net.size());
+  for (std::size_t net = 0; net < vcd.of_net.size(); ++net) {
+    BOOST_TEST((vcd.of_net[net] == fst.of_net[net]), "net " << net);
+    BOOST_TEST((fst.of_net[net] == short_fst.of_net[net]), "without texts, net " << net);
+  }
+  BOOST_TEST(vcd.of_net[0].size() > instants / 2);
+}
+
+BOOST_AUTO_TEST_CASE(reading_stops_and_goes_on_at_each_instant) {
+  const kit::TemporaryFolder folder;
+  constexpr unsigned instants = 2000;
+  write_unevenly(folder / "t.fst", instants);
+  struct Steps : vp::WaveHandler {
+    bool at(std::uint64_t) override {
+      ++times;
+      return false;
+    }
+    void change(std::uint32_t net, const vp::WaveValue&) override { changes += net == 0; }
+    unsigned times = 0, changes = 0;
+  } steps;
+  vp::WaveReader reader(folder / "t.fst");
+  reader.select(0);
+  for (unsigned before = 1; before != steps.times;) {
+    before = steps.times;
+    reader.read(steps);
+  }
+  BOOST_TEST(steps.times > instants);
+  const Story whole(folder / "t.fst");
+  BOOST_TEST(steps.changes == whole.of_net[0].size());
+}
+
 // Until its writer is done, a file ends with an empty block, and its names are beside it.
 BOOST_AUTO_TEST_CASE(an_unfinished_file_is_read_with_its_names) {
   const kit::TemporaryFolder folder;

@@ -307,4 +307,30 @@ BOOST_AUTO_TEST_CASE(very_many_scopes_and_a_very_wide_vector) {
   BOOST_TEST((read.lines.front() == "0 v " + digits));
 }
 
+BOOST_AUTO_TEST_CASE(words_that_are_no_utf8_are_latin1) {
+  const std::string text = "$var string 1 ! s $end\n";
+  BOOST_TEST((Read(with(text,
+                        "#0\nsr\xF6"
+                        "d !\n"))
+                  .lines == Lines{"0 top.s r\xC3\xB6"
+                                  "d"}));
+  BOOST_TEST((Read(with(text, "#0\nsr\\366d !\n")).lines == Lines{"0 top.s r\xC3\xB6"
+                                                                  "d"}));
+  BOOST_TEST((Read(with(text,
+                        "#0\nsr\xC3\xB6"
+                        "d !\n"))
+                  .lines == Lines{"0 top.s r\xC3\xB6"
+                                  "d"}));
+  const kit::TemporaryFolder folder;
+  kit::write_file(folder / "t.vcd", with("$attrbegin misc 07 kind 1 r\xF6"
+                                         "d 1 1 $end\n" +
+                                             bit,
+                                         ""));
+  const vp::WaveReader reader(folder / "t.vcd");
+  BOOST_TEST_REQUIRE(reader.enumerations().size() == 1u);
+  BOOST_TEST(reader.enumerations()[0].words[0].second ==
+             "r\xC3\xB6"
+             "d");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

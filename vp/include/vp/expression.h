@@ -14,7 +14,7 @@ namespace vp {
 /// that is unknown.
 struct ExpressionValue {
   ExpressionValue() = default;
-  /// 64 bits of mantissa hold every vector of a trace and every double exactly.
+  /// 64 bits of mantissa hold every double exactly, and every vector of up to 64 bits.
   ExpressionValue(long double plain) : number(plain), known(plain == plain) {}
   static ExpressionValue unknown() {
     ExpressionValue value;
@@ -22,14 +22,19 @@ struct ExpressionValue {
     return value;
   }
 
-  long double number = 0;  ///< in the base unit
+  long double number = 0;  ///< in the base unit; with `digits` no more than near it
   Unit unit = Unit::none;
   bool known = true;
   bool is_text = false;
   bool may_be_text = false;  ///< of a trace: compared with the other type it is unknown
   std::string text;          ///< of a number the name of its value, if it has one
 
+  bool is_wide = false;  ///< of a signal of more than 64 bits
+  std::string digits;    ///< of a number above 64 bits: its bits from the first 1 on
+
   bool holds() const { return known && number != 0; }
+  /// Below 0, 0 or above 0 for less, equal or greater. Both are numbers, or both are texts.
+  int order(const ExpressionValue& other) const;
 };
 
 /// Where an expression finds the values of its names.
@@ -147,6 +152,7 @@ class Expression {
   ExpressionValue over_time(const Node& node, const At& at, unsigned ago) const;
   ExpressionValue logic(const Node& node, const At& at, unsigned ago) const;
   ExpressionValue named(const Node& node, const At& at, unsigned ago) const;
+  static ExpressionValue sliced(ExpressionValue whole, const Node& node);
   ExpressionValue scaled(const Node& node, ExpressionValue left,
                          const ExpressionValue& right) const;
   ExpressionValue compared(const Node& node, const ExpressionValue& left,

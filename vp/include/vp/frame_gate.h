@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <vp/expression.h>
+#include <vp/wave_paths.h>
 #include <vp/wave_writer.h>
 
 namespace vp {
@@ -117,6 +118,7 @@ class TraceFilter {
   /// Throws InputError if a `+` pattern matches none of `paths`, or if nothing of them is selected;
   /// the message tells what there is instead. `hidden`: paths that another trace level shows.
   void check(const std::vector<std::string>& paths, const std::vector<std::string>& hidden) const;
+  void check(const WavePaths& paths) const;
 
  private:
   struct Pattern {
@@ -135,6 +137,8 @@ class TraceFilter {
 /// The place in `paths` of a signal that a user wrote: its whole path, or the end of one path only
 /// ("feature_overflow"). Throws InputError that begins with `where` and names what is near.
 std::uint32_t find_path(const std::string& name, const std::vector<std::string>& paths,
+                        const std::string& where = "");
+std::uint32_t find_path(const std::string& name, const WavePaths& paths,
                         const std::string& where = "");
 
 }  // namespace vp

@@ -9,23 +9,25 @@
 #include <utility>
 #include <vector>
 
+#include <vp/wave_paths.h>
+
 namespace vp {
 
 class FstReader;
+class NameTable;
 class VcdIndex;
 class VcdReader;
 class WaveJoiner;
 class WaveNotes;
-struct WaveDeclared;
+struct WaveDeclarations;
 
-/// A name in a trace. Several names may show one net.
+/// What a name in a trace shows. Several names may show one net.
 struct WaveVariable {
   enum class Kind : std::uint8_t { bits, real, text };
-  std::string path;  ///< levels separated by '.', without "[7:0]"
   Kind kind = Kind::bits;
+  bool is_event = false;          ///< each 1 is an occurrence, also if no 0 comes between them
   unsigned width = 1;             ///< of bits; 0 for a vector without bits, which has no values
   std::uint32_t net = 0;          ///< counts from 0
-  bool is_event = false;          ///< each 1 is an occurrence, also if no 0 comes between them
   std::uint32_t enumeration = 0;  ///< place in WaveReader::enumerations() + 1; 0: none
 };
 
@@ -39,6 +41,7 @@ struct WaveEnumeration {
 struct WaveValue {
   WaveVariable::Kind kind = WaveVariable::Kind::bits;  ///< text for a word in a vector of bits
   bool known = false;      ///< all digits are 0, 1, l or h; a real is a number
+  bool plain = false;      ///< all digits are 0 or 1
   std::uint64_t bits = 0;  ///< right-aligned, the lowest 64; l is 0, h is 1; 0 if not known
   double real = 0;         ///< of a real
   std::string_view text;   ///< as written, small: "0", "1x", "2.5"; of a text what it says
@@ -59,6 +62,9 @@ class WaveHandler {
   /// From here on the file does not say what happens ($dumpoff), or says it again. The values are x
   /// meanwhile.
   virtual void recorded(bool /*is_recorded*/) {}
+  /// False: values may come without their text if `bits` or `real` has all of them, so plain ones
+  /// of up to 64 bits and known reals.
+  virtual bool needs_texts() const { return true; }
 };
 
 /// How a trace is read.
@@ -92,8 +98,12 @@ class WaveReader {
   const std::vector<WaveVariable>& variables() const { return variables_; }
   const std::vector<WaveEnumeration>& enumerations() const { return enumerations_; }
   std::uint32_t nets() const { return static_cast<std::uint32_t>(selected_.size()); }
+  /// By variable: levels separated by '.', without "[7:0]".
+  const WavePaths& paths() const { return paths_; }
   /// Null if missing.
-  const WaveVariable* find(const std::string& path) const;
+  const WaveVariable* find(std::string_view path) const;
+  /// The variable's place; -1 if missing.
+  std::int64_t place_of(std::string_view path) const;
   /// Femtoseconds of a step of the file's time.
   std::uint64_t timescale_fs() const { return timescale_fs_; }
 
@@ -119,7 +129,7 @@ class WaveReader {
   std::vector<std::string> warnings() const;
 
  private:
-  void declare(std::vector<WaveDeclared> declared);
+  void declare(WaveDeclarations declared);
   bool reach(std::uint64_t steps, WaveHandler& handler);
   std::vector<std::uint32_t> standing() const;
   void seek_index(std::uint64_t steps);
@@ -135,10 +145,13 @@ class WaveReader {
   std::unique_ptr<WaveJoiner> joiner_;  ///< null: no vector was declared bit by bit
   std::vector<WaveVariable> variables_;
   std::vector<WaveEnumeration> enumerations_;
-  std::vector<std::uint32_t> by_name_;  ///< hash table of places + 1
-  std::vector<bool> selected_;          ///< by net
-  std::vector<bool> wanted_;            ///< by net of the file
+  WavePaths paths_;
+  std::unique_ptr<NameTable> by_name_;
+  std::vector<bool> selected_;  ///< by net
+  std::vector<bool> wanted_;    ///< by net of the file
   std::uint64_t timescale_fs_ = 0;
+  std::uint64_t ps_per_step_ = 0;  ///< 0: steps are no whole ps
+  std::uint64_t latest_steps_ = 0;
   std::uint64_t now_ps_ = 0;
   unsigned below_ps_ = 0;
   bool started_ = false;  ///< a time was read
