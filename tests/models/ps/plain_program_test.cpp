@@ -27,6 +27,8 @@ enum class Case : std::uint32_t {
   overflows,
   computes,
   leaves_interrupts_on,
+  switches_for_ever,
+  switches,
   uses_pointers,
 };
 
@@ -134,7 +136,7 @@ BOOST_AUTO_TEST_CASE(interrupts_come_at_their_time_while_it_computes) {
 }
 
 BOOST_AUTO_TEST_CASE(an_endless_loop_by_design_ends_at_the_limit_without_failure) {
-  for (const Case what : {Case::writes_for_ever, Case::loops_for_ever}) {
+  for (const Case what : {Case::writes_for_ever, Case::loops_for_ever, Case::switches_for_ever}) {
     Run run("plain", {"cpu.timeout=200 us"}, what);
     run.start();
     run.cpu.check();
@@ -205,6 +207,14 @@ BOOST_AUTO_TEST_CASE(what_waits_in_an_endless_loop_is_told) {
     const std::string& text = run.reports.warnings().front().message;
     BOOST_TEST(contains(text, reason), text);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_that_a_case_of_a_switch_leaves_is_a_failure) {
+  Run run("plain", {"cpu.timeout=300 us"}, Case::switches);
+  run.start();
+  const std::string error = run.failure();
+  BOOST_TEST(contains(error, "no end within 300 us"), error);
+  BOOST_TEST(!run.cpu.reached_limit());
 }
 
 BOOST_AUTO_TEST_CASE(a_loop_that_could_end_is_a_failure) {

@@ -96,6 +96,51 @@ static int deep(int depth) {
   return depth == 0 ? 0 : deep(depth - 1) + room[0];
 }
 
+/* Loops round what compilers make a table of jumps of; only the second one has a way out. */
+static void switches_for_ever(void) {
+  for (unsigned number = 0;; ++number) {
+    switch (number % 6) {
+      case 0:
+        hal_write32(DEVICE, 10);
+        break;
+      case 1:
+        hal_write32(DEVICE, 11);
+        break;
+      case 2:
+        hal_write32(DEVICE, 12);
+        break;
+      case 3:
+        hal_write32(DEVICE, 13);
+        break;
+      case 4:
+        hal_write32(DEVICE, 14);
+        break;
+    }
+  }
+}
+
+static int switches(void) {
+  for (unsigned number = 0;; ++number) {
+    switch (number % 6) {
+      case 0:
+        hal_write32(DEVICE, 10);
+        break;
+      case 1:
+        hal_write32(DEVICE, 11);
+        break;
+      case 2:
+        hal_write32(DEVICE, 12);
+        break;
+      case 3:
+        if (never) return 0;
+        break;
+      case 4:
+        hal_write32(DEVICE, 14);
+        break;
+    }
+  }
+}
+
 int main(void) {
   switch (hal_read32(DEVICE)) {
     case 0:
@@ -126,6 +171,11 @@ int main(void) {
       return compute();
     case 9:
       return leave_interrupts_on();
+    case 10:
+      switches_for_ever();
+      return 0;
+    case 11:
+      return switches();
     default:
       return registers_by_pointer();
   }
