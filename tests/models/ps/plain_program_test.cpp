@@ -29,6 +29,7 @@ enum class Case : std::uint32_t {
   leaves_interrupts_on,
   switches_for_ever,
   switches,
+  starts_second,
   uses_pointers,
 };
 
@@ -145,6 +146,30 @@ BOOST_AUTO_TEST_CASE(an_endless_loop_by_design_ends_at_the_limit_without_failure
     BOOST_TEST(run.cpu.end_ps() == 200'000'000u);
     BOOST_TEST(run.reports.warnings().empty());
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_second_core_starts_at_the_word_of_the_boot_code) {
+  Run run("plain", {}, Case::starts_second);
+  ps::Ocm ocm("ocm", run.cpu_clock);
+  run.bus.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
+  vp::Signal<bool> n_irq1{"n_irq1", 1, true};
+  ps::Cpu cpu1("cpu1", run.cpu_clock, run.cpu);
+  cpu1.n_irq(n_irq1);
+  cpu1.m_axi.socket.bind(run.bus.socket);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.written() == std::vector<std::uint32_t>{21});
+  BOOST_TEST(run.reports.warnings().empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_word_of_the_boot_code_starts_no_core_that_the_platform_lacks) {
+  Run run("plain", {}, Case::starts_second);
+  ps::Ocm ocm("ocm", run.cpu_clock);
+  run.bus.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
+  run.start();
+  const std::string error = run.failure();
+  BOOST_TEST(contains(error, "the platform has one core: set ps.cores to 2"), error);
+  BOOST_TEST(run.written().empty());
 }
 
 // The loop behind main() is the vendor's exit().

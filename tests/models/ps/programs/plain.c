@@ -141,6 +141,17 @@ static int switches(void) {
   }
 }
 
+static void second(void) {
+  hal_write32(DEVICE, 21);
+}
+
+/* As programs do that know the boot code. */
+static int start_second(void) {
+  hal_write32(0xFFFFFFF0u, (uint32_t)(uintptr_t)&second);
+  __asm__("sev");
+  return 0;
+}
+
 int main(void) {
   switch (hal_read32(DEVICE)) {
     case 0:
@@ -176,6 +187,8 @@ int main(void) {
       return 0;
     case 11:
       return switches();
+    case 12:
+      return start_second();
     default:
       return registers_by_pointer();
   }
