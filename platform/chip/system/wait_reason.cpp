@@ -240,7 +240,9 @@ std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Surrounding
     if (!reason.empty() && std::find(reasons.begin(), reasons.end(), reason) == reasons.end())
       reasons.push_back(reason);
   };
-  for (const MappedDevice& device : map.devices) {
+  static const decltype(map.devices) no_devices;
+  const auto& devices = wait.only_stopped ? no_devices : map.devices;
+  for (const MappedDevice& device : devices) {
     for (const bool sends : {true, false}) {
       if (is_of_interest(zynq, device, sends, wait.polled)) add(state_of_dma(zynq, device, sends));
     }
@@ -255,7 +257,7 @@ std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Surrounding
                     high ? "has been high since" : "rose at",
                     vp::format_time(gic.risen_ps(interrupt.id)), why));
   }
-  for (const MappedDevice& device : map.devices) {
+  for (const MappedDevice& device : devices) {
     // What a program polls is no reason to miss an interrupt of it.
     const bool polls_it =
         wait.polled && device.base <= *wait.polled && *wait.polled - device.base < device.size;

@@ -30,6 +30,8 @@ enum class Case : std::uint32_t {
   switches_for_ever,
   switches,
   starts_second,
+  shows_arguments,
+  leaves_all_to_handlers,
   uses_pointers,
 };
 
@@ -232,6 +234,31 @@ BOOST_AUTO_TEST_CASE(what_waits_in_an_endless_loop_is_told) {
     const std::string& text = run.reports.warnings().front().message;
     BOOST_TEST(contains(text, reason), text);
   }
+}
+
+BOOST_AUTO_TEST_CASE(what_keeps_an_interrupt_from_a_program_that_leaves_all_to_handlers_is_told) {
+  for (const std::string stopped : {"; interrupt 61 is not enabled", ""}) {
+    Run run("plain", {"cpu.timeout=300 us"}, Case::leaves_all_to_handlers);
+    run.cpu.surroundings.wait_reason = [&](const ps::Surroundings::Wait& wait) {
+      return wait.only_stopped ? stopped : "; something else";
+    };
+    run.start();
+    run.cpu.check();
+    BOOST_TEST(run.cpu.reached_limit());
+    const auto warnings = run.reports.warnings();
+    BOOST_TEST_REQUIRE(warnings.size() == (stopped.empty() ? 0u : 1u));
+    if (stopped.empty()) continue;
+    const std::string& text = warnings.front().message;
+    BOOST_TEST(contains(text, "in an endless loop" + stopped), text);
+    BOOST_TEST(!contains(text, "something else"), text);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(main_gets_no_arguments) {
+  Run run("plain", {}, Case::shows_arguments);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.cpu.exit_code() == 0);
 }
 
 BOOST_AUTO_TEST_CASE(a_loop_that_a_case_of_a_switch_leaves_is_a_failure) {

@@ -152,7 +152,7 @@ static int start_second(void) {
   return 0;
 }
 
-int main(void) {
+int main(int argc, char** argv) {
   switch (hal_read32(DEVICE)) {
     case 0:
       for (;;) hal_write32(DEVICE, 1);
@@ -189,6 +189,12 @@ int main(void) {
       return switches();
     case 12:
       return start_second();
+    case 13:
+      return argc != 0 || argv != NULL;
+    case 14:
+      hal_interrupt_connect(on_tick, NULL);
+      for (;;)
+        ;
     default:
       return registers_by_pointer();
   }
