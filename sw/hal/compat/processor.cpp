@@ -50,6 +50,11 @@ void Xil_ExceptionRegisterHandler(u32 Exception_id, Xil_ExceptionHandler Handler
   if (Exception_id >= handlers.size()) return;
   handlers[Exception_id] = {Handler, Data};
   if (Exception_id == XIL_EXCEPTION_ID_IRQ_INT) hal_interrupt_connect(Handler, Data);
+  if (Exception_id == XIL_EXCEPTION_ID_FIQ_INT && Handler != nullptr) {
+    hal_warn(
+        "Xil_ExceptionRegisterHandler of FIQ, which is not modelled: the handler is never called; "
+        "register it for XIL_EXCEPTION_ID_IRQ_INT");
+  }
 }
 
 void Xil_ExceptionRemoveHandler(u32 Exception_id) {

@@ -138,6 +138,17 @@ BOOST_AUTO_TEST_CASE(a_registered_handler_is_told_until_it_is_removed) {
   BOOST_CHECK_EQUAL(data, &irqs);
 }
 
+BOOST_AUTO_TEST_CASE(a_handler_of_fiq_is_warned_of) {
+  int calls = 0;
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_IRQ_INT, &note, &calls);
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_DATA_ABORT_INT, &note, &calls);
+  Xil_ExceptionRemoveHandler(XIL_EXCEPTION_ID_FIQ_INT);
+  BOOST_CHECK(state().warnings.empty());
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_FIQ_INT, &note, &calls);
+  BOOST_REQUIRE_EQUAL(state().warnings.size(), 1);
+  BOOST_CHECK(state().warnings[0].find("FIQ, which is not modelled") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(the_coprocessor_says_which_processor_and_core_it_is) {
   BOOST_CHECK_EQUAL(mfcp(XREG_CP15_MAIN_ID) >> 4 & 0xFFF, 0xC09u);  // a Cortex-A9
   BOOST_CHECK_EQUAL(mfcp(XREG_CP15_MULTI_PROC_AFFINITY), 0x8000'0000u);
