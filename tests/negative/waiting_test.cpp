@@ -53,6 +53,15 @@ BOOST_AUTO_TEST_CASE(what_the_device_keeps) {
             "XScuTimer_EnableInterrupt"});
 }
 
+// A program that polls has no use for the interrupt of what it polls.
+BOOST_AUTO_TEST_CASE(an_interrupt_is_missed_only_where_one_is_waited_for) {
+  const std::string call = "XAxiDma_IntrEnable";
+  const std::string polls = told(12);
+  BOOST_TEST(contains(polls, "axi_dma_0 MM2S stopped with an error, DMADecErr"), polls);
+  BOOST_TEST(!contains(polls, call), polls);
+  tells(13, {"axi_dma_0.MM2S_DMASR has 0x00005000 set", call});
+}
+
 BOOST_AUTO_TEST_CASE(why_a_dma_does_not_end) {
   tells(8, {"axi_dma_1 S2MM is not started, bit 0 of S2MM_DMACR (RS) is 0"});
   tells(9, {"axi_dma_1 S2MM runs, but S2MM_LENGTH was never written"});

@@ -2,7 +2,9 @@
 #include <ps/cpu/cores.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 #include <ps/cpu/cpu.h>
 #include <vp/report.h>
@@ -65,6 +67,20 @@ constexpr std::uint32_t start_address = 0xFFFF'FFF0;
 // What orders accesses beside locks and words: keys of RaceDetector.
 constexpr char start_key = 0, event_key = 0, software_interrupt_key = 0;
 
+/// Without time and side effects; 0 where nothing answers.
+std::uint32_t debug_word(vp::MmLink& bus, std::uint32_t address) {
+  std::array<unsigned char, 4> bytes{};
+  tlm::tlm_generic_payload payload;
+  payload.set_read();
+  payload.set_address(address);
+  payload.set_data_ptr(bytes.data());
+  payload.set_data_length(bytes.size());
+  payload.set_streaming_width(bytes.size());
+  if (bus.transport_debug(payload) != bytes.size()) return 0;
+  return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+         std::uint32_t{bytes[3]} << 24;
+}
+
 std::string name_of(const hal_lock& lock) {
   return lock.name ? "lock '" + std::string(lock.name) + "'" : "a lock without name";
 }
@@ -80,17 +96,40 @@ void Cpu::start_core(unsigned number, void (*entry)(void)) {
   if (cores_->all.size() <= number) {
     misuse(call + "the platform has one core: set ps.cores to 2");
   }
-  Cpu& core = *cores_->all[number];
+  const Cpu& core = *cores_->all[number];
   if (both_started_) misuse(call + "the core was started already: " + core.doing());
   // The loader puts a program elsewhere in each run; its place in the file stays.
   const auto address = reinterpret_cast<std::uintptr_t>(entry);
   const bool in_file = code_ && code_->contains(address);
   write32(start_address, static_cast<std::uint32_t>(in_file ? code_->place(address) : address));
   barrier();
+  leave_boot_code(number, entry);
+}
+
+void Cpu::leave_boot_code(unsigned number, void (*entry)(void)) {
   for (Cpu* each : cores_->all) each->both_started_ = true;
   cores_->races.release(number_, &start_key);
-  core.entry_ = entry;
-  scheduler_.notify(core.start_);
+  cores_->all[number]->entry_ = entry;
+  scheduler_.notify(cores_->all[number]->start_);
+}
+
+// What programs do that know the boot code: they write the entry themselves, and send an event.
+void Cpu::start_by_word() {
+  const std::uint32_t entry = debug_word(m_axi, start_address);
+  if (entry == 0) return;
+  const std::string call = "the program starts core 1 at " + vp::hex(entry) + ", ";
+  if (!code_ || !code_->contains(entry)) {
+    if (std::exchange(cores_->told_start, true)) return;
+    vp::warn(*this, "/markervp/cpu/second_program",
+             call +
+                 "where it has no code, and no other program is loaded: nothing runs there. Link "
+                 "the code of both cores to one program, and start a function of it: "
+                 "Xil_Out32(0xFFFFFFF0, (u32)function)");
+  } else if (cores_->all.size() == 1) {
+    misuse(call + "and the platform has one core: set ps.cores to 2");
+  } else {
+    leave_boot_code(1, reinterpret_cast<void (*)(void)>(std::uintptr_t{entry}));
+  }
 }
 
 // In the boot code, which sleeps until an event.
@@ -191,6 +230,7 @@ void Cpu::wait_for_event() {
 
 void Cpu::send_event() {
   barrier();
+  if (number_ == 0 && !both_started_) start_by_word();
   cores_->races.release(number_, &event_key);
   for (Cpu* core : cores_->all) core->event_ = true;
   scheduler_.check_condition();

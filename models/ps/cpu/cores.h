@@ -89,6 +89,7 @@ struct Cores {
   std::vector<Cpu*> all;  ///< by number
   RaceDetector races;
   std::set<std::pair<std::uintptr_t, std::uintptr_t>> told_races;  ///< by calls
+  bool told_start = false;  ///< that core 1 is started where no code is
   /// A lock that is taken.
   struct Holder {
     Cpu* core;

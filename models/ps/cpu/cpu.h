@@ -339,6 +339,8 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void doze(std::uint64_t until_ps, vp::ClockScheduler::Condition condition);
 
   // Two cores: cores.cpp
+  void leave_boot_code(unsigned number, void (*entry)(void));
+  void start_by_word();
   void await_start();
   void sleep_for_good();
   bool beside_other() const;
@@ -399,8 +401,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::optional<std::uint64_t> over_ps_;  ///< the end, where nothing was left to do after main()
   bool works_after_main_ = false;
   std::exception_ptr error_;
-  sc_core::sc_event ended_;
-  sc_core::sc_event never_;
+  sc_core::sc_event ended_, never_;
 
   WorkMeter work_;
   double code_scale_ = 1;  ///< by the cost table
@@ -427,8 +428,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   void (*entry_)(void) = nullptr;  ///< of the second core
   sc_core::sc_event start_;
   bool both_started_ = false;
-  bool event_ = false;  ///< the event register
-  bool awaits_event_ = false;
+  bool event_ = false, awaits_event_ = false;  ///< the event register; it is in WFE
   const hal_lock* awaited_lock_ = nullptr;
   ExclusiveMonitor monitor_;
 

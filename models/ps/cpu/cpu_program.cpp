@@ -26,6 +26,13 @@ constexpr std::uintptr_t null_end = 0x1000, low_end = 0x4'0000, first_register =
 /// interrupt waits for a loop.
 constexpr std::uint64_t blocks_at_once = 64;
 
+/// As the vendor's boot code calls main(), with argc 0 and argv NULL. Entries without parameters
+/// do not look at them.
+int call_entry(int (*entry)(void)) {
+  using Main = int (*)(int, char**);
+  return reinterpret_cast<Main>(reinterpret_cast<void (*)(void)>(entry))(0, nullptr);
+}
+
 }  // namespace
 
 volatile unsigned ProgramWatch::suspicions_ = 0;
@@ -54,7 +61,7 @@ void Cpu::call_program() {
           call.entry();
         } else {
           if (call.boot) call.boot();
-          call.cpu.exit_code_ = call.program();
+          call.cpu.exit_code_ = call_entry(call.program);
           call.cpu.stay_after_main();
         }
       },
@@ -277,11 +284,16 @@ MachineCode::Reach Cpu::reach() const {
 void Cpu::end_at_limit(const std::string& hint, bool sleeps) {
   const bool waits =
       signs_.loops() ? reach() != MachineCode::Reach::straight : signs_.sees_no_change();
-  if (!main_end_ps_ && (sleeps || waits)) {
+  // It leaves all to handlers: what keeps an interrupt from them?
+  const bool leaves_it = signs_.loops() && !waits && irq_.handler();
+  const std::string stopped =
+      leaves_it ? surroundings.wait_reason({irq_.masked_by_program(), {}, true}) : "";
+  if (!main_end_ps_ && (sleeps || waits || !stopped.empty())) {
     vp::warn(*this, "/markervp/cpu/time_limit",
              "the program reached its time limit, " + vp::format_time(settings_.timeout) + " (" +
                  settings_.timeout.name() + "), in an endless loop" +
-                 (sleeps ? "; it waits for an interrupt, and none came" : "") + hint);
+                 (sleeps ? "; it waits for an interrupt, and none came" : "") +
+                 (leaves_it ? stopped : hint));
   }
   reached_limit_ = true;
   end(State::finished);

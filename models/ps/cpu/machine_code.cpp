@@ -138,6 +138,43 @@ std::optional<std::uintptr_t> through_table(const Decoder& decoder, std::uintptr
       jump->next + static_cast<std::uintptr_t>(operand.mem.disp.value));
 }
 
+/// Where a `switch` leads: its compare with the last case, and the table of 32-bit offsets that
+/// GCC and Clang jump through. Follows the instructions of one path.
+class JumpTable {
+ public:
+  void look_at(const Instruction& instruction) {
+    const auto mnemonic = instruction.head.mnemonic;
+    const ZydisDecodedOperand& from = instruction.operands[1];
+    if (mnemonic == ZYDIS_MNEMONIC_CMP || mnemonic == ZYDIS_MNEMONIC_SUB) {
+      compared_ = from.type == ZYDIS_OPERAND_TYPE_IMMEDIATE ? from.imm.value.u : most_cases;
+    } else if (instruction.head.meta.category == ZYDIS_CATEGORY_COND_BR) {
+      cases_ = mnemonic == ZYDIS_MNEMONIC_JNBE && compared_ < most_cases ? compared_ + 1 : 0;
+      table_ = 0;
+    } else if (mnemonic == ZYDIS_MNEMONIC_LEA && from.mem.base == ZYDIS_REGISTER_RIP) {
+      table_ = instruction.next + static_cast<std::uintptr_t>(from.mem.disp.value);
+    }
+  }
+
+  /// The targets of a jump that computes where it goes; none: it is no `switch` that is known.
+  std::vector<std::uintptr_t> targets() const {
+    std::vector<std::uintptr_t> found(table_ == 0 ? 0 : cases_);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      std::int32_t offset;
+      std::memcpy(&offset, reinterpret_cast<const char*>(table_) + i * sizeof offset,
+                  sizeof offset);
+      found[i] = table_ + static_cast<std::uintptr_t>(std::intptr_t{offset});
+    }
+    return found;
+  }
+
+ private:
+  static constexpr std::uint64_t most_cases = 1024;
+
+  std::uint64_t compared_ = most_cases;  ///< with a constant
+  std::size_t cases_ = 0;
+  std::uintptr_t table_ = 0;
+};
+
 }  // namespace
 
 std::vector<MachineCode::Block> MachineCode::blocks(std::uintptr_t tracer) const {
@@ -191,16 +228,25 @@ MachineCode::Reach MachineCode::reach(std::uintptr_t from) const {
   while (!open.empty()) {
     std::uintptr_t at = open.back();
     open.pop_back();
+    JumpTable table;
     while (seen.insert(at).second) {
       const auto instruction = contains(at) ? decoder.at(at, end_) : std::nullopt;
       if (!instruction || seen.size() > most) return Reach::returns;
       const auto category = instruction->head.meta.category;
       if (category == ZYDIS_CATEGORY_RET) return Reach::returns;
       at = instruction->next;
+      table.look_at(*instruction);
       if (category == ZYDIS_CATEGORY_UNCOND_BR) {
         const auto target = instruction->target();
-        if (!target) return Reach::returns;
-        at = *target;
+        if (target) {
+          at = *target;
+          continue;
+        }
+        const std::vector<std::uintptr_t> cases = table.targets();
+        if (cases.empty()) return Reach::returns;
+        open.insert(open.end(), cases.begin(), cases.end());
+        found = Reach::loops;
+        break;
       } else if (category == ZYDIS_CATEGORY_COND_BR) {
         const auto target = instruction->target();
         if (!target) return Reach::returns;

@@ -63,7 +63,9 @@ bool ProgramWatch::count_block(std::uintptr_t address) {
 bool HostWatch::is_empty_loop(std::uintptr_t instruction) {
 #if defined(__x86_64__)
   const auto* bytes = reinterpret_cast<const unsigned char*>(instruction);
-  return bytes[0] == 0xEB && bytes[1] == 0xFE;
+  constexpr unsigned char jump = 0xEB, to_itself = 0xFE, to_nop = 0xFD, nop = 0x90;
+  if (bytes[0] == nop) return bytes[1] == jump && bytes[2] == to_nop;
+  return bytes[0] == jump && (bytes[1] == to_itself || (bytes[1] == to_nop && bytes[-1] == nop));
 #else
   static_cast<void>(instruction);
   return false;

@@ -113,9 +113,9 @@ struct HostLimit {
 /// call is the simulator's, and does not count.
 ///
 /// It also lets time pass in loops without a statement, `while (true);`. The compiler puts no call
-/// of __sanitizer_cov_trace_pc() into them: their only basic block is the jump to itself. The watch
-/// moves the program into a loop that makes the call. Since the jump leads nowhere else, no result
-/// depends on when that happens. Only on x86-64.
+/// of __sanitizer_cov_trace_pc() into them: their only basic block is the jump to itself, or to a
+/// nop. The watch moves the program into a loop that makes the call. Since the jump leads nowhere
+/// else, no result depends on when that happens. Only on x86-64.
 class HostWatch : private vp::HostTicks::Listener {
  public:
   HostWatch() = default;
@@ -127,7 +127,7 @@ class HostWatch : private vp::HostTicks::Listener {
   void arm(const HostLimit& limit);
   void disarm();
 
-  /// The instruction there jumps to itself.
+  /// The instruction there jumps to itself, or is one of a nop and the jump to it.
   static bool is_empty_loop(std::uintptr_t instruction);
 
  private:

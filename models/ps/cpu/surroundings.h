@@ -24,6 +24,7 @@ struct Surroundings {
   struct Wait {
     bool irq_masked;
     std::optional<std::uint32_t> polled;  ///< address of the register that it looks at
+    bool only_stopped = false;            ///< no more than which interrupt is stopped on its way
   };
 
   /// Names the device at an address.

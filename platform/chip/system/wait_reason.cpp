@@ -92,8 +92,17 @@ std::string stopped_at_controller(const ps::Gic& gic, std::uint32_t id, bool irq
   return {};
 }
 
+/// An interrupt of `device` is enabled at the controller.
+bool has_interrupt_on(const ps::InterruptLogic& logic, const facts::HardwareMap& map,
+                      const MappedDevice& device) {
+  const std::string part = "." + device.name + ".";
+  return std::any_of(map.interrupts.begin(), map.interrupts.end(), [&](const auto& interrupt) {
+    return logic.enabled[interrupt.id] && interrupt.source.find(part) != std::string::npos;
+  });
+}
+
 /// An event of a device that its own enable bit keeps from its interrupt line.
-std::string kept_at_device(Zynq& zynq, const MappedDevice& device) {
+std::string kept_at_device(Zynq& zynq, const MappedDevice& device, bool means_interrupts) {
   const Look look(zynq, device);
   const auto dma = [&](const std::string& channel, const char* direction) -> std::string {
     const std::uint32_t kept =
@@ -108,7 +117,9 @@ std::string kept_at_device(Zynq& zynq, const MappedDevice& device) {
     const std::string sends = dma("MM2S", "XAXIDMA_DMA_TO_DEVICE");
     return sends.empty() ? dma("S2MM", "XAXIDMA_DEVICE_TO_DMA") : sends;
   }
-  if (look.has("GIER") && look["IP_ISR"] != 0) {
+  // Its inputs set IP_ISR in a program without interrupts, too.
+  if (look.has("GIER") && look["IP_ISR"] != 0 &&
+      (means_interrupts || look["IP_IER"] != 0 || look["GIER"] != 0)) {
     if ((look["IP_ISR"] & ~look["IP_IER"]) != 0) {
       return fmt::format(
           "{}.IP_ISR has 0x{:X} set, and IP_IER is 0x{:X}: call "
@@ -135,7 +146,7 @@ std::string kept_at_device(Zynq& zynq, const MappedDevice& device) {
   if (device.base == uart::uart0_base || device.base == uart::uart1_base) {
     constexpr std::uint32_t received = uart::event::RTRIG | uart::event::TIMEOUT;
     const std::uint32_t kept = look["ISR"] & ~look["IMR"] & received;
-    if (kept != 0) {
+    if (kept != 0 && (means_interrupts || look["IMR"] != 0)) {
       return fmt::format(
           "{}.ISR has 0x{:X} set, and IMR is 0x{:X}: call "
           "XUartPs_SetInterruptMask(&uart, …)",
@@ -229,7 +240,9 @@ std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Surrounding
     if (!reason.empty() && std::find(reasons.begin(), reasons.end(), reason) == reasons.end())
       reasons.push_back(reason);
   };
-  for (const MappedDevice& device : map.devices) {
+  static const decltype(map.devices) no_devices;
+  const auto& devices = wait.only_stopped ? no_devices : map.devices;
+  for (const MappedDevice& device : devices) {
     for (const bool sends : {true, false}) {
       if (is_of_interest(zynq, device, sends, wait.polled)) add(state_of_dma(zynq, device, sends));
     }
@@ -244,8 +257,13 @@ std::string reason_of_wait(Zynq& zynq, const ps::Gic& gic, const ps::Surrounding
                     high ? "has been high since" : "rose at",
                     vp::format_time(gic.risen_ps(interrupt.id)), why));
   }
-  for (const MappedDevice& device : map.devices) {
-    add(kept_at_device(zynq, device));
+  for (const MappedDevice& device : devices) {
+    // What a program polls is no reason to miss an interrupt of it.
+    const bool polls_it =
+        wait.polled && device.base <= *wait.polled && *wait.polled - device.base < device.size;
+    const bool means_interrupts = has_interrupt_on(logic, map, device);
+    if (!polls_it && (!wait.polled || means_interrupts))
+      add(kept_at_device(zynq, device, means_interrupts));
     if (wait.polled) add(nothing_typed(zynq, device, *wait.polled));
   }
   std::string text;

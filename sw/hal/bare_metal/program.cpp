@@ -60,7 +60,11 @@ extern "C" {
     chip::end(chip::input_exit_code);
   }
   chip::check_options();
-  chip::end(hal_program_info.entry());
+  // A main() gets argc 0 and argv NULL, as from the vendor's boot code.
+  using Main = int (*)(int, char**);
+  const auto entry =
+      reinterpret_cast<Main>(reinterpret_cast<void (*)(void)>(hal_program_info.entry));
+  chip::end(entry(0, nullptr));
 }
 
 // Destructors of static objects never run: a program does not leave the chip.

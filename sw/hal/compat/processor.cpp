@@ -1,12 +1,14 @@
-// xtime_l.h and sleep.h.
+// xtime_l.h, sleep.h and xil_exception.h.
 #include <cstdarg>
 
 #include <algorithm>
+#include <array>
 
 #include <global_timer_registers.h>
 #include <hal/hal.h>
 #include <sleep.h>
 #include <xil_assert.h>
+#include <xil_exception.h>
 #include <xil_printf.h>
 #include <xil_testio.h>
 #include <xil_util.h>
@@ -34,9 +36,36 @@ void wait_counts(u64 counts) {
   }
 }
 
+struct Handler {
+  Xil_ExceptionHandler function;
+  void* data;
+};
+std::array<Handler, XIL_EXCEPTION_ID_LAST + 1> handlers{};
+
 }  // namespace
 
 extern "C" {
+
+void Xil_ExceptionRegisterHandler(u32 Exception_id, Xil_ExceptionHandler Handler, void* Data) {
+  if (Exception_id >= handlers.size()) return;
+  handlers[Exception_id] = {Handler, Data};
+  if (Exception_id == XIL_EXCEPTION_ID_IRQ_INT) hal_interrupt_connect(Handler, Data);
+  if (Exception_id == XIL_EXCEPTION_ID_FIQ_INT && Handler != nullptr) {
+    hal_warn(
+        "Xil_ExceptionRegisterHandler of FIQ, which is not modelled: the handler is never called; "
+        "register it for XIL_EXCEPTION_ID_IRQ_INT");
+  }
+}
+
+void Xil_ExceptionRemoveHandler(u32 Exception_id) {
+  Xil_ExceptionRegisterHandler(Exception_id, nullptr, nullptr);
+}
+
+void Xil_GetExceptionRegisterHandler(u32 Exception_id, Xil_ExceptionHandler* Handler, void** Data) {
+  if (Exception_id >= handlers.size()) return;
+  *Handler = handlers[Exception_id].function;
+  *Data = handlers[Exception_id].data;
+}
 
 void XTime_GetTime(XTime* Xtime_Global) {
   std::uint32_t high = hal_read32(at(global_timer::COUNTER_HIGH));

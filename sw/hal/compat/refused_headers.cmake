@@ -22,5 +22,12 @@ connection out in this build, or put what arrives by it into memory" xemacps.h l
   lwip/netif.h lwip/sockets.h lwip/timers.h lwip/tcpip.h lwipopts.h netif/xadapter.h netif/xemacpsif.h netif/xtopology.h)
 _refuse("There is no transceiver at the platform's USB controllers. Leave USB out in this build" xusbps.h xusbps_hw.h xusbps_endpoint.h)
 _refuse("The device is not modelled: an access would end the program. Leave it out in this build" xcanps.h xwdttb.h
-  xvprocss.h xv_tpg.h xi2s.h xaxiethernet.h xemaclite.h)
+  xvprocss.h xv_tpg.h xi2s.h xaxiethernet.h xemaclite.h xcsi.h xcsiss.h xcsi2tx.h xcsi2txss.h xdphy.h xl2cc.h
+  xl2cc_counter.h xpm_counter.h)
+_refuse("The clock wizard is modelled, but its driver is not part of markervp::compat. Write its registers (PG065) with Xil_Out32()"
+  xclk_wiz.h xclk_wiz_hw.h)
+_refuse("The Zynq-7000 has no such device: this program is for a Zynq UltraScale+" xipipsu.h xsecure.h xsecure_aes.h xsecure_sha.h
+  xdpdma.h xdppsu.h xavbuf.h xzdma.h xcsudma.h xsysmonpsu.h xresetps.h xqspipsu.h xrtcpsu.h pm_api_sys.h pm_defs.h)
+_refuse("OpenAMP loads a second program, and one program can be loaded: start core 1 at a function of this one" openamp/open_amp.h
+  openamp/hil.h metal/sys.h metal/irq.h metal/io.h)
 _refuse("Name your copy of the kernel: markervp_add_program(… FREERTOS <FreeRTOS-Kernel>)" FreeRTOS.h)

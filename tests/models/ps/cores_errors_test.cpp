@@ -47,6 +47,32 @@ BOOST_AUTO_TEST_CASE(a_start_without_entry_or_of_a_core_that_is_none) {
   BOOST_TEST(says(one.failure(), "the platform has one core: set ps.cores to 2"));
 }
 
+// What CPU 0 of a pair of programs does: the other one's address, and SEV.
+BOOST_AUTO_TEST_CASE(a_core_is_started_where_the_program_has_no_code) {
+  for (const std::uint32_t entry : {0x0020'0000u, 0u}) {
+    Bench b;
+    vp::ReportRouter reports;
+    std::ostringstream messages;
+    reports.redirect(messages);
+    ps::Ocm ocm("ocm", b.cpu_clock);
+    b.bus.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
+    b.run([entry] {
+      hal_write32(0xFFFF'FFF0, entry);
+      hal_send_event();
+      hal_send_event();
+      return 0;
+    });
+    b.cpu.check();
+    const std::string text = messages.str();
+    if (entry == 0) {
+      BOOST_TEST(text.empty(), text);
+      continue;
+    }
+    BOOST_TEST(says(text, "starts core 1 at 0x00200000, where it has no code"), text);
+    BOOST_TEST(text.find("second_program") == text.rfind("second_program"), text);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(each_waits_for_the_lock_of_the_other) {
   TwoCores b;
   const std::string error = b.failure_of([] {

@@ -27,6 +27,11 @@ enum class Case : std::uint32_t {
   overflows,
   computes,
   leaves_interrupts_on,
+  switches_for_ever,
+  switches,
+  starts_second,
+  shows_arguments,
+  leaves_all_to_handlers,
   uses_pointers,
 };
 
@@ -134,7 +139,7 @@ BOOST_AUTO_TEST_CASE(interrupts_come_at_their_time_while_it_computes) {
 }
 
 BOOST_AUTO_TEST_CASE(an_endless_loop_by_design_ends_at_the_limit_without_failure) {
-  for (const Case what : {Case::writes_for_ever, Case::loops_for_ever}) {
+  for (const Case what : {Case::writes_for_ever, Case::loops_for_ever, Case::switches_for_ever}) {
     Run run("plain", {"cpu.timeout=200 us"}, what);
     run.start();
     run.cpu.check();
@@ -143,6 +148,30 @@ BOOST_AUTO_TEST_CASE(an_endless_loop_by_design_ends_at_the_limit_without_failure
     BOOST_TEST(run.cpu.end_ps() == 200'000'000u);
     BOOST_TEST(run.reports.warnings().empty());
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_second_core_starts_at_the_word_of_the_boot_code) {
+  Run run("plain", {}, Case::starts_second);
+  ps::Ocm ocm("ocm", run.cpu_clock);
+  run.bus.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
+  vp::Signal<bool> n_irq1{"n_irq1", 1, true};
+  ps::Cpu cpu1("cpu1", run.cpu_clock, run.cpu);
+  cpu1.n_irq(n_irq1);
+  cpu1.m_axi.socket.bind(run.bus.socket);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.written() == std::vector<std::uint32_t>{21});
+  BOOST_TEST(run.reports.warnings().empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_word_of_the_boot_code_starts_no_core_that_the_platform_lacks) {
+  Run run("plain", {}, Case::starts_second);
+  ps::Ocm ocm("ocm", run.cpu_clock);
+  run.bus.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
+  run.start();
+  const std::string error = run.failure();
+  BOOST_TEST(contains(error, "the platform has one core: set ps.cores to 2"), error);
+  BOOST_TEST(run.written().empty());
 }
 
 // The loop behind main() is the vendor's exit().
@@ -205,6 +234,39 @@ BOOST_AUTO_TEST_CASE(what_waits_in_an_endless_loop_is_told) {
     const std::string& text = run.reports.warnings().front().message;
     BOOST_TEST(contains(text, reason), text);
   }
+}
+
+BOOST_AUTO_TEST_CASE(what_keeps_an_interrupt_from_a_program_that_leaves_all_to_handlers_is_told) {
+  for (const std::string stopped : {"; interrupt 61 is not enabled", ""}) {
+    Run run("plain", {"cpu.timeout=300 us"}, Case::leaves_all_to_handlers);
+    run.cpu.surroundings.wait_reason = [&](const ps::Surroundings::Wait& wait) {
+      return wait.only_stopped ? stopped : "; something else";
+    };
+    run.start();
+    run.cpu.check();
+    BOOST_TEST(run.cpu.reached_limit());
+    const auto warnings = run.reports.warnings();
+    BOOST_TEST_REQUIRE(warnings.size() == (stopped.empty() ? 0u : 1u));
+    if (stopped.empty()) continue;
+    const std::string& text = warnings.front().message;
+    BOOST_TEST(contains(text, "in an endless loop" + stopped), text);
+    BOOST_TEST(!contains(text, "something else"), text);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(main_gets_no_arguments) {
+  Run run("plain", {}, Case::shows_arguments);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.cpu.exit_code() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_loop_that_a_case_of_a_switch_leaves_is_a_failure) {
+  Run run("plain", {"cpu.timeout=300 us"}, Case::switches);
+  run.start();
+  const std::string error = run.failure();
+  BOOST_TEST(contains(error, "no end within 300 us"), error);
+  BOOST_TEST(!run.cpu.reached_limit());
 }
 
 BOOST_AUTO_TEST_CASE(a_loop_that_could_end_is_a_failure) {

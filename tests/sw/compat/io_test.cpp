@@ -2,8 +2,11 @@
 #include <boost/test/unit_test.hpp>
 
 #include <xil_cache.h>
+#include <xil_cache_l.h>
 #include <xil_exception.h>
 #include <xil_io.h>
+#include <xil_misc_psreset_api.h>
+#include <xpseudo_asm.h>
 
 #include "fake_hal.h"
 
@@ -111,6 +114,59 @@ BOOST_AUTO_TEST_CASE(only_irq_has_a_handler) {
   BOOST_CHECK(!state().enabled);
   Xil_ExceptionRemoveHandler(XIL_EXCEPTION_ID_INT);
   BOOST_CHECK(state().handler == nullptr);
+}
+
+BOOST_AUTO_TEST_CASE(a_registered_handler_is_told_until_it_is_removed) {
+  int irqs = 0, aborts = 0;
+  Xil_ExceptionHandler handler = nullptr;
+  void* data = nullptr;
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_IRQ_INT, &note, &irqs);
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_DATA_ABORT_INT, &note, &aborts);
+  Xil_GetExceptionRegisterHandler(XIL_EXCEPTION_ID_IRQ_INT, &handler, &data);
+  BOOST_CHECK(handler == &note);
+  BOOST_CHECK_EQUAL(data, &irqs);
+  Xil_GetExceptionRegisterHandler(XIL_EXCEPTION_ID_DATA_ABORT_INT, &handler, &data);
+  BOOST_CHECK_EQUAL(data, &aborts);
+  for (const u32 id : {XIL_EXCEPTION_ID_IRQ_INT, XIL_EXCEPTION_ID_DATA_ABORT_INT}) {
+    Xil_ExceptionRemoveHandler(id);
+    Xil_GetExceptionRegisterHandler(id, &handler, &data);
+    BOOST_CHECK(handler == nullptr);
+    BOOST_CHECK(data == nullptr);
+  }
+  data = &irqs;
+  Xil_GetExceptionRegisterHandler(XIL_EXCEPTION_ID_LAST + 1, &handler, &data);
+  BOOST_CHECK_EQUAL(data, &irqs);
+}
+
+BOOST_AUTO_TEST_CASE(a_handler_of_fiq_is_warned_of) {
+  int calls = 0;
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_IRQ_INT, &note, &calls);
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_DATA_ABORT_INT, &note, &calls);
+  Xil_ExceptionRemoveHandler(XIL_EXCEPTION_ID_FIQ_INT);
+  BOOST_CHECK(state().warnings.empty());
+  Xil_ExceptionRegisterHandler(XIL_EXCEPTION_ID_FIQ_INT, &note, &calls);
+  BOOST_REQUIRE_EQUAL(state().warnings.size(), 1);
+  BOOST_CHECK(state().warnings[0].find("FIQ, which is not modelled") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(the_coprocessor_says_which_processor_and_core_it_is) {
+  BOOST_CHECK_EQUAL(mfcp(XREG_CP15_MAIN_ID) >> 4 & 0xFFF, 0xC09u);  // a Cortex-A9
+  BOOST_CHECK_EQUAL(mfcp(XREG_CP15_MULTI_PROC_AFFINITY), 0x8000'0000u);
+  mtcp(XREG_CP15_INVAL_UTLB_UNLOCKED, 0);
+  BOOST_CHECK(state().accesses.empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_first_level_of_the_cache_flushes_nothing_for_devices) {
+  int word = 0;
+  Xil_L1DCacheFlush();
+  Xil_L1DCacheFlushRange(reinterpret_cast<INTPTR>(&word), sizeof word);
+  BOOST_CHECK(state().flushed.empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_lock_of_the_slcr_has_its_addresses) {
+  Xil_Out32(XSLCR_UNLOCK_ADDR, XSLCR_UNLOCK_CODE);
+  BOOST_REQUIRE_EQUAL(state().accesses.size(), 1);
+  BOOST_CHECK(state().accesses[0] == (Access{true, 0xF800'0008, 0xDF0D}));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -29,4 +29,11 @@
 #define XGpioPs_WriteReg(BaseAddr, RegOffset, Data) \
   Xil_Out32((BaseAddr) + (u32)(RegOffset), (u32)(Data))
 
+/* Bypass mode, and the types of interrupts after reset. */
+#define XGPIOPS_BYPM_MASK_OFFSET 0x00000040U
+#define XGPIOPS_INTTYPE_BANK0_RESET 0xFFFFFFFFU
+#define XGPIOPS_INTTYPE_BANK1_RESET 0x003FFFFFU
+#define XGPIOPS_INTTYPE_BANK2_RESET 0xFFFFFFFFU
+#define XGPIOPS_INTTYPE_BANK3_RESET 0xFFFFFFFFU
+
 #endif

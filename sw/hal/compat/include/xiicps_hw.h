@@ -70,4 +70,10 @@
 #define XIicPs_DisableAllInterrupts(BaseAddress) \
   XIicPs_DisableInterrupts((BaseAddress), XIICPS_IXR_ALL_INTR_MASK)
 
+/* Fields, and the looks of a poll in later releases. */
+#define XIICPS_TRANS_SIZE_MASK 0x0000003F
+#define XIICPS_SLV_PAUSE_MASK 0x0000000F
+#define XIICPS_TIME_OUT_MASK 0x000000FFU
+#define XIICPS_POLL_DEFAULT_TIMEOUT_VAL 1000U
+
 #endif

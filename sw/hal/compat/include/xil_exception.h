@@ -32,15 +32,10 @@ typedef void (*Xil_InterruptHandler)(void* data);
 
 static inline void Xil_ExceptionInit(void) {}
 
-static inline void Xil_ExceptionRegisterHandler(u32 Exception_id, Xil_ExceptionHandler Handler,
-                                                void* Data) {
-  if (Exception_id == XIL_EXCEPTION_ID_IRQ_INT) hal_interrupt_connect(Handler, Data);
-}
-
-static inline void Xil_ExceptionRemoveHandler(u32 Exception_id) {
-  // NOLINTNEXTLINE(modernize-use-nullptr): C programs include this, too
-  if (Exception_id == XIL_EXCEPTION_ID_IRQ_INT) hal_interrupt_connect(NULL, NULL);
-}
+void Xil_ExceptionRegisterHandler(u32 Exception_id, Xil_ExceptionHandler Handler, void* Data);
+void Xil_ExceptionRemoveHandler(u32 Exception_id);
+/** What was registered; NULL where nothing was, which is the vendor's loop without end. */
+void Xil_GetExceptionRegisterHandler(u32 Exception_id, Xil_ExceptionHandler* Handler, void** Data);
 
 static inline void Xil_ExceptionEnableMask(u32 Mask) {
   if (Mask & XIL_EXCEPTION_IRQ) (void)hal_interrupt_enable(true);

@@ -63,4 +63,11 @@
 #define XSpiPs_WriteReg(BaseAddress, RegOffset, RegisterValue) \
   Xil_Out32((BaseAddress) + (u32)(RegOffset), (u32)(RegisterValue))
 
+/* Fields of the delay register. */
+#define XSPIPS_ISR_RESET_STATE 0x04U
+#define XSPIPS_DR_NSS_MASK 0xFF000000U
+#define XSPIPS_DR_BTWN_MASK 0x00FF0000U
+#define XSPIPS_DR_AFTER_MASK 0x0000FF00U
+#define XSPIPS_DR_INIT_MASK 0x000000FFU
+
 #endif

@@ -47,4 +47,9 @@
 #define XTtcPs_WriteReg(BaseAddress, RegOffset, Data) \
   Xil_Out32((BaseAddress) + (u32)(RegOffset), (u32)(Data))
 
+/* Counters of 16 bits. */
+#define XTTCPS_COUNT_VALUE_MASK 0x0000FFFFU
+#define XTTCPS_INTERVAL_VAL_MASK 0x0000FFFFU
+#define XTTCPS_MATCH_MASK 0x0000FFFFU
+
 #endif

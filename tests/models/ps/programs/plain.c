@@ -96,7 +96,63 @@ static int deep(int depth) {
   return depth == 0 ? 0 : deep(depth - 1) + room[0];
 }
 
-int main(void) {
+/* Loops round what compilers make a table of jumps of; only the second one has a way out. */
+static void switches_for_ever(void) {
+  for (unsigned number = 0;; ++number) {
+    switch (number % 6) {
+      case 0:
+        hal_write32(DEVICE, 10);
+        break;
+      case 1:
+        hal_write32(DEVICE, 11);
+        break;
+      case 2:
+        hal_write32(DEVICE, 12);
+        break;
+      case 3:
+        hal_write32(DEVICE, 13);
+        break;
+      case 4:
+        hal_write32(DEVICE, 14);
+        break;
+    }
+  }
+}
+
+static int switches(void) {
+  for (unsigned number = 0;; ++number) {
+    switch (number % 6) {
+      case 0:
+        hal_write32(DEVICE, 10);
+        break;
+      case 1:
+        hal_write32(DEVICE, 11);
+        break;
+      case 2:
+        hal_write32(DEVICE, 12);
+        break;
+      case 3:
+        if (never) return 0;
+        break;
+      case 4:
+        hal_write32(DEVICE, 14);
+        break;
+    }
+  }
+}
+
+static void second(void) {
+  hal_write32(DEVICE, 21);
+}
+
+/* As programs do that know the boot code. */
+static int start_second(void) {
+  hal_write32(0xFFFFFFF0u, (uint32_t)(uintptr_t)&second);
+  __asm__("sev");
+  return 0;
+}
+
+int main(int argc, char** argv) {
   switch (hal_read32(DEVICE)) {
     case 0:
       for (;;) hal_write32(DEVICE, 1);
@@ -126,6 +182,19 @@ int main(void) {
       return compute();
     case 9:
       return leave_interrupts_on();
+    case 10:
+      switches_for_ever();
+      return 0;
+    case 11:
+      return switches();
+    case 12:
+      return start_second();
+    case 13:
+      return argc != 0 || argv != NULL;
+    case 14:
+      hal_interrupt_connect(on_tick, NULL);
+      for (;;)
+        ;
     default:
       return registers_by_pointer();
   }
