@@ -9,7 +9,16 @@
 #include <csignal>
 #include <cstring>
 
+#include <sys/syscall.h>
+#include <unistd.h>
+
 namespace {
+
+/// As by another process: raise() and kill() would be noticed before.
+void be_killed() {
+  long number = SYS_kill;
+  asm volatile("syscall" : "+a"(number) : "D"(::getpid()), "S"(SIGKILL) : "rcx", "r11", "memory");
+}
 
 struct Pins {
   std::uint8_t clk, ena, rst, pixel, corner_out;
@@ -34,7 +43,7 @@ class CornerObject {
 
   void eval() {
     ++evaluations;
-    if (evaluations == KILLED_AT) std::raise(SIGKILL);
+    if (evaluations == KILLED_AT) be_killed();
     if (state.pins.clk && !state.clk_before) edge();
     state.clk_before = state.pins.clk;
   }
