@@ -78,13 +78,12 @@ void print_row(const Figures& figures, const synthesis::PathTiming& timing, std:
   }
   out << fmt::format(fmt::runtime(row), name_of(figures), c.lut, c.lut_pairs, c.lut_memory,
                      c.lut_through, c.ff, c.carry4, c.ramb18, c.ramb36, c.dsp, fmax);
-  const auto& [constant, bits] =
-      std::pair(figures.netlist.constant_bits, figures.netlist.output_bits);
-  if (2 * constant > bits) {
+  const synthesis::Netlist& netlist = figures.netlist;
+  if (2 * netlist.constant_bits > netlist.output_bits) {
     out << fmt::format(
         "  {} of {} bits of its outputs are constant: its parameters may leave out what drives "
         "them\n",
-        constant, bits);
+        netlist.constant_bits, netlist.output_bits);
   }
   for (const std::string& what : figures.netlist.not_covered)
     out << "  not covered by Fmax: " << what << '\n';

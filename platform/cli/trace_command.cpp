@@ -239,21 +239,23 @@ trace::CutOptions part(const TraceCommandOptions& options) {
 
 int cut(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {
   trace::CutOptions asked = part(options);
-  for (;;) {
+  std::string name;
+  const auto write = [&] {
     TraceFile file = opened(options);
-    try {
-      trace::cut(file, options.other, asked);
-    } catch (const trace::MixedTypes& mixed) {
-      std::error_code ignored;
-      const bool again = std::filesystem::is_regular_file(file.name(), ignored);
-      if (!again || !asked.as_texts.empty()) throw;
-      asked.as_texts = mixed.nets;
-      continue;
-    }
+    name = file.name();
+    trace::cut(file, options.other, asked);
     out << "wrote " << options.other << "\n";
     warn_of(file, err);
     return done;
+  };
+  try {
+    return write();
+  } catch (const trace::MixedTypes& mixed) {
+    std::error_code ignored;  // a pipe is read once
+    if (!std::filesystem::is_regular_file(name, ignored)) throw;
+    asked.as_texts = mixed.nets;
   }
+  return write();
 }
 
 int saif(const TraceCommandOptions& options, std::ostream& out, std::ostream& err) {

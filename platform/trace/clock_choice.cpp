@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <vp/frame_gate.h>
+#include <vp/text.h>
 #include <vp/unit.h>
 
 // Which wire is a link's clock: found by names, scopes and edges, or named by the user.
@@ -17,12 +18,6 @@ namespace {
 constexpr std::size_t most_clocks = 4;
 
 }  // namespace
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return result;
-}
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -48,7 +43,7 @@ std::pair<std::size_t, std::size_t> nearness(std::string_view link, std::string_
 }
 
 bool may_be_clock(std::string_view path, const vp::WaveVariable& variable) {
-  const std::string leaf = lower(leaf_of(path));
+  const std::string leaf = vp::lower(leaf_of(path));
   const auto has = [&](const char* word) { return leaf.find(word) != std::string::npos; };
   return (has("clk") || has("clock")) && !has("rst") && !has("reset") && variable.width == 1 &&
          variable.kind == vp::WaveVariable::Kind::bits;

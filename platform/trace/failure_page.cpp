@@ -2,6 +2,7 @@
 
 #include <trace/clock_choice.h>
 #include <vp/frame_gate.h>
+#include <vp/text.h>
 
 #include <algorithm>
 #include <string>
@@ -16,7 +17,7 @@ namespace {
 using Paths = std::vector<std::string>;
 
 bool has_word(std::string_view path, const std::vector<const char*>& words) {
-  const std::string leaf = lower(leaf_of(path));
+  const std::string leaf = vp::lower(leaf_of(path));
   return std::any_of(words.begin(), words.end(),
                      [&](const char* word) { return leaf.find(word) != std::string::npos; });
 }

@@ -6,6 +6,7 @@
 #include <trace/clock_choice.h>
 #include <trace/statistics.h>
 #include <vp/error.h>
+#include <vp/text.h>
 
 // Handshakes, counted on clock edges that are never looked at one by one: between two changes all
 // edges see the same.
@@ -122,18 +123,18 @@ void LinkStatistic::add_link(std::uint32_t variable) {
   constexpr std::size_t word = 5;
   const std::string stem = path.substr(0, path.size() - word);
   const auto part = [&](const char* name) {
-    return file_.find(stem + (capitals ? name : lower(name)));
+    return file_.find(stem + (capitals ? name : vp::lower(name)));
   };
   const std::int64_t ready = part("READY");
   if (ready < 0) return;
   Link link;
   const std::string_view leaf = leaf_of(stem);
   // A stream that has a scope to itself is called after it.
-  link.name = lower(leaf) == "t" && leaf.size() < stem.size() ? stem.substr(0, stem.size() - 2)
-              : ends_with(lower(leaf), "_t")                  ? stem.substr(0, stem.size() - 2)
-                                                              : stem;
+  link.name = vp::lower(leaf) == "t" && leaf.size() < stem.size() ? stem.substr(0, stem.size() - 2)
+              : ends_with(vp::lower(leaf), "_t")                  ? stem.substr(0, stem.size() - 2)
+                                                                  : stem;
   link.interface = link.name;
-  const std::string small = lower(leaf);
+  const std::string small = vp::lower(leaf);
   for (const char* channel : {"aw", "ar", "w", "b", "r"}) {
     if (!ends_with(small, channel)) continue;
     link.interface = stem.substr(0, stem.size() - std::string_view(channel).size());

@@ -60,7 +60,7 @@ class NameTable {
   std::size_t slot_of(std::string_view path, std::size_t hash, const WavePaths& paths) const;
   std::uint32_t tag_of(std::size_t hash) const;
 
-  std::uint32_t place_mask_ = 1;  ///< other bits are of the hash: most paths are told apart by them
+  std::uint32_t place_mask_ = 1;  ///< the other bits are of the hash, by which most paths differ
   std::vector<std::uint32_t> places_;  ///< + 1
 };
 

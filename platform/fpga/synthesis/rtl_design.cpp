@@ -5,8 +5,6 @@
 #include <regex>
 #include <set>
 #include <system_error>
-#include <tuple>
-#include <utility>
 
 #include <fpga/synthesis/vhdl.h>
 #include <vp/error.h>
@@ -33,12 +31,11 @@ Parameters parse_parameters(const std::vector<std::string>& given) {
     const char* const begin =
         text.data() + (equals == std::string::npos ? text.size() : equals + 1);
     const char* const end = text.data() + text.size();
-    auto [stop, error] = std::from_chars(begin, end, value);
-    if (const std::string word(begin, end); word == "true" || word == "false") {
-      value = word == "true" ? 1 : 0;
-      std::tie(stop, error) = std::pair(end, std::errc{});
-    }
-    if (equals == 0 || error != std::errc{} || stop != end) {
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    const std::string_view word(begin, static_cast<std::size_t>(end - begin));
+    if (word == "true") value = 1;
+    const bool read = word == "true" || word == "false" || (error == std::errc{} && stop == end);
+    if (equals == 0 || !read) {
       throw vp::InputError("--parameter '" + text +
                            "': give NAME=NUMBER, as LABELS=64, or true or false");
     }
@@ -104,7 +101,8 @@ std::vector<fs::path> needed_by(const std::string& top, const std::vector<fs::pa
     for (const std::string& name : units_of(source, texts.back()))
       declares.emplace(name, texts.size() - 1);
   }
-  std::vector<std::string> open{top, vp::lower(top)};
+  std::vector<std::string> open{top};
+  if (std::any_of(sources.begin(), sources.end(), is_vhdl)) open.push_back(vp::lower(top));
   std::set<std::size_t> needed;
   while (!open.empty()) {
     const auto [first, last] = declares.equal_range(open.back());

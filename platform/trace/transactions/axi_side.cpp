@@ -1,5 +1,7 @@
 #include <trace/transactions/axi_side.h>
 
+#include <vp/text.h>
+
 #include <algorithm>
 #include <array>
 
@@ -28,7 +30,7 @@ AxiSide::AxiSide(const DecoderContext& context, const char* operation,
       request_(channel(request_channel, true,
                        {"ADDR", "ID", "LEN", "SIZE", "BURST", "LOCK", "CACHE", "PROT", "QOS",
                         "REGION", "USER"})) {
-  const std::string small = lower(request_channel);
+  const std::string small = vp::lower(request_channel);
   id_ = role(small + "id");
   address_ = role(small + "addr");
   length_ = role(small + "len");
@@ -36,7 +38,7 @@ AxiSide::AxiSide(const DecoderContext& context, const char* operation,
   burst_ = role(small + "burst");
   lock_ = role(small + "lock");
   cache_ = role(small + "cache");
-  if (const auto data = role(lower(data_channel) + "data"))
+  if (const auto data = role(vp::lower(data_channel) + "data"))
     bus_bytes_ = std::max(1U, width(*data) / bits_per_byte);
   follow_reset();
 }
@@ -45,10 +47,10 @@ Handshake AxiSide::channel(const std::string& name, bool by_manager,
                            std::initializer_list<const char*> payload) {
   std::vector<Handshake::Payload> signals;
   for (const char* signal : payload) {
-    if (const auto slot = role(lower(name + signal))) signals.push_back({signal, *slot});
+    if (const auto slot = role(vp::lower(name + signal))) signals.push_back({signal, *slot});
   }
-  return Handshake(replay_, prefix_, name, by_manager, *role(lower(name) + "valid"),
-                   role(lower(name) + "ready"), std::move(signals));
+  return Handshake(replay_, prefix_, name, by_manager, *role(vp::lower(name) + "valid"),
+                   role(vp::lower(name) + "ready"), std::move(signals));
 }
 
 void AxiSide::reset(const SampleEdge& edge) {

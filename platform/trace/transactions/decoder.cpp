@@ -1,5 +1,7 @@
 #include <trace/transactions/decoder.h>
 
+#include <vp/text.h>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -41,7 +43,7 @@ void Decoder::follow_reset() {
 std::string bits_as_hexadecimal(const std::string& digits) {
   // A single digit is a vector of one, not a wire.
   const unsigned width = std::max(2U, static_cast<unsigned>(digits.size()));
-  return "0x" + lower(readable(digits, vp::WaveVariable::Kind::bits, width));
+  return "0x" + vp::lower(readable(digits, vp::WaveVariable::Kind::bits, width));
 }
 
 Decoder::Decoder(const DecoderContext& context)

@@ -197,7 +197,7 @@ void InterfaceFinder::place(BusInterface& one, std::uint32_t anchor) const {
   const std::string& path = file_.paths()[anchor];
   const std::string_view level = scope_of(path), above = scope_of(one.name);
   one.scope = one.name == level || above.empty() ? level : above;
-  const std::string own = lower(leaf_of(one.name));
+  const std::string own = vp::lower(leaf_of(one.name));
   const std::string word = own.substr(0, own.find('_'));
   const auto is = [&](const std::string& letter, const char* const* whole) {
     for (; *whole; ++whole) {

@@ -131,7 +131,7 @@ std::string name_without(const std::string& path, std::string_view role) {
   // The role's letters from the right, behind a direction and with separators in between.
   for (const std::string_view direction : directions) {
     const std::string suffix = "_" + std::string(direction);
-    if (ends_with(lower(name), suffix)) {
+    if (ends_with(vp::lower(name), suffix)) {
       name.erase(name.size() - suffix.size());
       break;
     }
@@ -150,7 +150,7 @@ std::string name_without(const std::string& path, std::string_view role) {
   if (structure) {
     for (bool again = true; again;) {
       again = false;
-      const std::string own = lower(name);
+      const std::string own = vp::lower(name);
       const auto cut = [&](std::string_view word) {
         if (again || !ends_with(own, word) || own.size() == word.size()) return;
         const char before = own[own.size() - word.size() - 1];

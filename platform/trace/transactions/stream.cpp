@@ -1,3 +1,4 @@
+#include <vp/text.h>
 #include <algorithm>
 #include <map>
 
@@ -67,10 +68,7 @@ class Stream final : public Decoder {
   std::vector<Handshake::Payload> payload() {
     std::vector<Handshake::Payload> signals;
     for (const char* name : {"DATA", "KEEP", "STRB", "LAST", "ID", "DEST", "USER"}) {
-      std::string small = "t" + std::string(name);
-      std::transform(small.begin(), small.end(), small.begin(),
-                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      if (const auto slot = role(small)) signals.push_back({name, *slot});
+      if (const auto slot = role("t" + vp::lower(name))) signals.push_back({name, *slot});
     }
     return signals;
   }

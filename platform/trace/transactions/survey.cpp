@@ -8,6 +8,7 @@
 
 #include <trace/transactions/signal_name.h>
 #include <vp/error.h>
+#include <vp/text.h>
 #include <vp/unit.h>
 
 namespace platform::trace {
@@ -51,7 +52,7 @@ std::string first_role(const BusInterface& bus) {
 /// How a reset is called, and whether it is active low.
 std::optional<bool> reset_of(const std::string& path) {
   std::string leaf;
-  for (const char c : lower(leaf_of(path))) {
+  for (const char c : vp::lower(leaf_of(path))) {
     if (c != '_') leaf += c;
   }
   for (const char* end : {"resetn", "rstn", "resetni", "rstni", "resetb", "rstb"}) {
