@@ -368,7 +368,7 @@ std::string LinuxApplication::place() {
   return {};
 }
 
-// It answers at once, unless it has a handler of its own for that signal.
+// It answers at once, unless it has a handler of its own for that signal, or is just ending.
 std::string LinuxApplication::end_for_time() {
   // It reads debug information, on a computer that may be busy. Ticks interrupt receive().
   constexpr std::chrono::minutes longest_answer{1};
@@ -378,6 +378,8 @@ std::string LinuxApplication::end_for_time() {
   const auto end = std::chrono::steady_clock::now() + longest_answer;
   while (!silent_ && !host::InterruptGuard::noted() && std::chrono::steady_clock::now() < end) {
     const std::optional<Asked> asked = receive();
+    if (!asked) look_for_end();
+    if (ends_.count(user_) != 0) return {};
     if (!asked || asked->request.what != What::died) continue;
     note_death(*asked);
     return deaths_[static_cast<pid_t>(asked->request.process)].place;

@@ -235,6 +235,17 @@ static void leaves_a_copy(void) {
   }
 }
 
+static volatile sig_atomic_t has_heard;
+
+static void hear(int number) { has_heard = number; }
+
+/* It ends as it is asked for its place. */
+static void leaves_a_copy_late(void) {
+  signal(SIGXCPU, hear);
+  leaves_a_copy();
+  while (!has_heard) continue;
+}
+
 /* Only a sanitizer sees it. */
 static void beyond_an_array(void) {
   volatile char* const bytes = malloc(8);
@@ -308,7 +319,8 @@ int main(int count, char** words) {
                   {"two_processes", two_processes},
                   {"leaks", leaks},
                   {"beyond_an_array", beyond_an_array},
-                  {"leaves_a_copy", leaves_a_copy}};
+                  {"leaves_a_copy", leaves_a_copy},
+                  {"leaves_a_copy_late", leaves_a_copy_late}};
   for (unsigned i = 0; i < sizeof mistakes / sizeof *mistakes; ++i) {
     if (count == 2 && strcmp(words[1], mistakes[i].name) == 0) {
       mistakes[i].make();
