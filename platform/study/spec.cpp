@@ -85,6 +85,8 @@ class Reader : private vp::YamlReader {
         {"program", [&](const YAML::Node& n) { read_program(n, "program"); }},
         {"frames", [&](const YAML::Node& n) { spec_.frames = whole(n, "frames", 1, most_frames); }},
         {"repeat", [&](const YAML::Node& n) { spec_.repeat = whole(n, "repeat", 1, most_frames); }},
+        {"design", [&](const YAML::Node& n) { set("design", scalar(n, "design"), n); }},
+        {"device", [&](const YAML::Node& n) { set("device", scalar(n, "device"), n); }},
         {"fidelity", [&](const YAML::Node& n) { set("fidelity", scalar(n, "fidelity"), n); }},
         {"set", [&](const YAML::Node& n) { read_set(n, ""); }},
         {"parameters", [&](const YAML::Node& n) { read_parameters(n); }},
@@ -101,6 +103,7 @@ class Reader : private vp::YamlReader {
         {"objectives", [&](const YAML::Node& n) { spec_.objectives = scalars(n, "objectives"); }}};
     for (const InputKind* kind : input_kinds()) add_keys(*kind, keys);
     refuse_controls(root, "");
+    for (const auto& entry : root) refuse_parameter(entry.first);
     for_each(root, keys, "a sweep");
     check_bounds(spec_.constraints);
   }
@@ -128,6 +131,14 @@ class Reader : private vp::YamlReader {
         refuse_controls(entry.second, entry.first.Scalar());
       }
     }
+  }
+
+  /// A key with a dot is a path of the configuration.
+  void refuse_parameter(const YAML::Node& key) {
+    if (key.IsScalar() && key.Scalar().find('.') != std::string::npos)
+      fail(key, "'" + key.Scalar() +
+                    "' is a parameter: write it under 'set', or with its values under "
+                    "'parameters'");
   }
 
   void read_program(const YAML::Node& node, const std::string& key) {

@@ -30,6 +30,7 @@ BOOST_AUTO_TEST_CASE(everything_has_its_place) {
 title: T
 inputs: [z1.0, roll]
 system: hybrid
+design: improved
 fidelity: tlm
 set: {sw: {upload: 0}}
 parameters:
@@ -45,17 +46,20 @@ objectives: [max summary.fps.mean]
                                "folder/s.yaml");
   BOOST_TEST(spec.name == "s");
   BOOST_TEST(spec.set.at("sw.upload") == "0");
+  BOOST_TEST(spec.set.at("design") == "improved");
   BOOST_TEST(spec.set.at("fidelity") == "tlm");
   BOOST_REQUIRE(spec.dimensions.size() == 4u);
   BOOST_TEST(spec.dimensions[1].axes[0].range->logarithmic);
   BOOST_TEST(spec.dimensions[3].axes.size() == 2u);
   BOOST_TEST(spec.input_sets.at("far").size() == 2u);
   BOOST_TEST((spec.sampling.method == Sampling::Method::sobol));
-  BOOST_TEST(spec.constraints[0].where == "folder/s.yaml:14");
+  BOOST_TEST(spec.constraints[0].where == "folder/s.yaml:15");
 }
 
 BOOST_AUTO_TEST_CASE(mistakes_are_named_with_their_line) {
   BOOST_TEST(contains(problem("parametres: {a: 1}"), "did you mean 'parameters'"));
+  BOOST_TEST(
+      contains(problem("title: x\npl.width: 320 px"), "s.yaml:2: 'pl.width' is a parameter"));
   BOOST_TEST(contains(problem("title: x\nparameters: {a: []}"), "s.yaml:2"));
   BOOST_TEST(contains(problem("parameters: {a: []}"), "no values"));
   BOOST_TEST(contains(problem("parameters: {a: {start: 1}}"), "'start' and 'stop'"));
