@@ -80,7 +80,9 @@ BOOST_AUTO_TEST_CASE(a_marker_is_found_up_to_the_border_and_not_beyond_it) {
                           return grey_of_marker(9, x - 86, y - 6, 468);
                         })};
   BOOST_TEST(difference(files) == "");
-  for (const Json& frame : run_of(files)["frames"]) {
+  const Json frames = run_of(files)["frames"];
+  BOOST_TEST(frames.size() == files.size());
+  for (const Json& frame : frames) {
     BOOST_REQUIRE(frame["markers"].size() == 1u);
     BOOST_TEST(frame["markers"][0]["id"] == 9);
   }

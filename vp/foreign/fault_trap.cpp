@@ -12,7 +12,9 @@
 #include <vp/kernel.h>
 #include <vp/own_stack.h>
 #include <vp/text.h>
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <string_view>
 
@@ -26,6 +28,8 @@ namespace {
 
 /// Enough to walk the stack of the program.
 constexpr std::size_t signal_stack_size = 256 * 1024;
+/// Of no object: a tick of HostTicks may come behind the end of all of them.
+alignas(std::max_align_t) std::array<char, signal_stack_size> signal_stack;
 /// Around the stack's end: what a function with large variables may miss the guard page by.
 constexpr std::uintptr_t overflow_range = 1024 * 1024;
 /// Between the caller of call() and the true top of the stack.
@@ -237,6 +241,7 @@ const Fault* FaultTrap::call(void (*code)(void* context), void* context) {
   // The frames that were left keep their marks otherwise.
   ASAN_UNPOISON_MEMORY_REGION(reinterpret_cast<void*>(stack_top_ - stack_size_ / 2),
                               stack_size_ / 2);
+  ASAN_UNPOISON_MEMORY_REGION(signal_stack.data(), signal_stack.size());
 #endif
   return &fault_;
 }
@@ -251,9 +256,8 @@ void FaultTrap::arm() {
   if (changed_.traps++ != 0) return;
   void* first[1];
   backtrace(first, 1);  // loads what it needs now, not in the signal handler
-  changed_.signal_stack.reset(new char[signal_stack_size]);
   stack_t stack{};
-  stack.ss_sp = changed_.signal_stack.get();
+  stack.ss_sp = signal_stack.data();
   stack.ss_size = signal_stack_size;
   sigaltstack(&stack, &changed_.old_stack);
   struct sigaction action {};

@@ -9,8 +9,10 @@
 #include <xilinx/wiring/wiring.h>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "bus_master.h"
 #include "input_error.h"
@@ -70,11 +72,13 @@ BOOST_FIXTURE_TEST_CASE(slice_and_constant, Wires) {
 
 BOOST_FIXTURE_TEST_CASE(gates, Wires) {
   vp::Signal<std::uint32_t> other("other", 8);
+  std::vector<std::unique_ptr<xilinx::Wiring>> all_gates;  // the signals do not forget a listener
   for (const auto& [operation, result] : {std::pair<std::string, std::uint64_t>{"and", 0x05},
                                           {"or", 0xAF},
                                           {"xor", 0xAA},
                                           {"not", 0x5A}}) {
-    const auto gates = xilinx::make_gates(operation.c_str(), operation, 8);
+    all_gates.push_back(xilinx::make_gates(operation.c_str(), operation, 8));
+    const auto& gates = all_gates.back();
     gates->connect(0, word);
     if (operation != "not") gates->connect(1, other);
     word = 0xA5;

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -168,7 +167,6 @@ class FaultTrap {
   /// What is changed in the process while traps are armed, and what was there before.
   struct Changed {
     unsigned traps = 0;
-    std::unique_ptr<char[]> signal_stack;
     stack_t old_stack{};
     struct sigaction old_actions[signal_count] = {};
     std::terminate_handler old_terminate = nullptr;
