@@ -71,8 +71,9 @@ struct Run : Bench {
 };
 
 /// Of the four computations of kernels.c, in cycles of 1 ns.
-std::vector<double> kernel_cycles(const Settings& settings = {}) {
-  Run run("kernels", settings);
+std::vector<double> kernel_cycles(const Settings& settings = {},
+                                  const std::string& program = "kernels") {
+  Run run(program, settings);
   run.start();
   run.cpu.check();
   const std::vector<std::uint64_t> times = run.device.times();
@@ -112,6 +113,20 @@ BOOST_AUTO_TEST_CASE(the_same_time_in_each_run_and_when_blocks_are_counted) {
   ps::ProgramWatch::block_counts = nullptr;
   BOOST_TEST(counted == once, boost::test_tools::per_element());
   BOOST_TEST(counts.size() > 20);
+}
+
+// In line where the compiler leaves room, by calls elsewhere.
+BOOST_AUTO_TEST_CASE(however_blocks_are_charged_they_take_the_same_time) {
+  BOOST_TEST(kernel_cycles({}, "kernels_called") == kernel_cycles(),
+             boost::test_tools::per_element());
+  for (const bool room : {true, false}) {
+    ps::ProgramWatch::BlockCounts counts;
+    ps::ProgramWatch::block_counts = &counts;
+    Run run(room ? "kernels" : "kernels_called");
+    run.start();
+    ps::ProgramWatch::block_counts = nullptr;
+    for (const auto& [block, count] : counts) BOOST_TEST(ps::MachineCode::has_room(block) == room);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_scale_multiplies_it_and_0_is_no_time) {
