@@ -91,7 +91,7 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
 endfunction()
 
 # The kernel of FreeRTOS from a copy that the user has, with the port of this package. FOLDER has tasks.c, or its subfolder Source does.
-# FreeRTOSConfig.h is the program's.
+# FreeRTOSConfig.h is the program's, or one like the vendor's tools make.
 function(_markervp_use_freertos NAME FOLDER)
   get_filename_component(folder "${FOLDER}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
   find_path(kernel tasks.c PATHS "${folder}" "${folder}/Source" NO_DEFAULT_PATH NO_CACHE)
@@ -110,7 +110,7 @@ function(_markervp_use_freertos NAME FOLDER)
   endif()
   set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -w)
   target_sources(${NAME} PRIVATE ${sources})
-  target_include_directories(${NAME} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${kernel}/include" "${port}")
+  target_include_directories(${NAME} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${kernel}/include" "${port}" "${port}/default")
 endfunction()
 
 # Sets VARIABLE to true if one of the sources defines hal_program_info, and so says what it does and counts its work.
