@@ -1,3 +1,26 @@
+/* Room behind each call of the tracer, in which the platform puts instructions that charge the
+ * block, see CodeCharge: the distance of what they jump to where the charge is used up, in a no-op.
+ * That returns into the block, as if it had been called there. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+__asm__(
+    ".macro call target:vararg\n"
+    "  callq \\target\n"
+    ".ifc \\target, __sanitizer_cov_trace_pc@PLT\n"
+    "  .byte 0x0F, 0x1F, 0x80\n"
+    "  .long .Lmarkervp_spent\\@ - .Lmarkervp_block\\@\n"
+    "  .byte 0x0F, 0x1F, 0x44, 0, 0\n"
+    ".Lmarkervp_block\\@:\n"
+    "  .subsection 1\n"
+    ".Lmarkervp_spent\\@:\n"
+    "  callq .Lmarkervp_here\\@\n"
+    ".Lmarkervp_here\\@:\n"
+    "  addq $.Lmarkervp_block\\@ - .Lmarkervp_here\\@, (%rsp)\n"
+    "  jmp markervp_spent\n"
+    "  .subsection 0\n"
+    ".endif\n"
+    ".endm\n");
+#endif
+
 /* Instructions of the Cortex-A9 that programs write as assembly, `__asm__("sev")`: macros of the
  * host's assembler that call what the HAL has for them. markervp_add_program has each source of a
  * program include it. */

@@ -90,9 +90,8 @@ function(_markervp_use_vendor_drivers NAME FOLDER)
   message(STATUS "${NAME}: the vendor's drivers of ${drivers}")
 endfunction()
 
-# markervp_add_program(NAME SOURCES a.cpp… [LIBRARIES l…] [VENDOR_BSP FOLDER] [FREERTOS FOLDER])
 # The kernel of FreeRTOS from a copy that the user has, with the port of this package. FOLDER has tasks.c, or its subfolder Source does.
-# FreeRTOSConfig.h is the program's.
+# FreeRTOSConfig.h is the program's, or one like the vendor's tools make.
 function(_markervp_use_freertos NAME FOLDER)
   get_filename_component(folder "${FOLDER}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}")
   find_path(kernel tasks.c PATHS "${folder}" "${folder}/Source" NO_DEFAULT_PATH NO_CACHE)
@@ -111,7 +110,7 @@ function(_markervp_use_freertos NAME FOLDER)
   endif()
   set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS -w)
   target_sources(${NAME} PRIVATE ${sources})
-  target_include_directories(${NAME} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${kernel}/include" "${port}")
+  target_include_directories(${NAME} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${kernel}/include" "${port}" "${port}/default")
 endfunction()
 
 # Sets VARIABLE to true if one of the sources defines hal_program_info, and so says what it does and counts its work.
@@ -158,21 +157,70 @@ function(_markervp_spell_headers NAME FOLDER)
   endif()
 endfunction()
 
+# How the code of a program is compiled; ANNOTATED: it counts its work.
+function(_markervp_compile_program NAME ANNOTATED)
+  # Numbers as on the chip: no contraction. Messages name lines, and all who called: no call becomes a jump.
+  target_compile_options(${NAME} PRIVATE -ffp-contract=off
+    "$<$<COMPILE_LANGUAGE:C,CXX>:-g;-fno-optimize-sibling-calls>")
+  # The platform notices loops without HAL call by the basic blocks that run, and a stack that overflows by its guard page.
+  target_compile_options(${NAME} PRIVATE
+    "$<$<COMPILE_LANGUAGE:C,CXX>:-fsanitize-coverage=trace-pc;-fstack-clash-protection>")
+  # Its code takes time by what it is made of (ps.cpu.code_scale): the same at every optimisation of the build.
+  if(NOT ANNOTATED)
+    target_compile_options(${NAME} PRIVATE "$<$<COMPILE_LANGUAGE:C,CXX>:-O0>"
+      "$<$<COMPILE_LANGUAGE:C,CXX>:SHELL:-include \"${markervp_program_assembly}.h\">"
+      # Its data have 32-bit addresses here, too: casts of pointers to u32 are right.
+      "$<$<COMPILE_LANGUAGE:C>:-Wno-pointer-to-int-cast;-Wno-int-to-pointer-cast>" "$<$<COMPILE_LANGUAGE:CXX>:-fpermissive>")
+  endif()
+endfunction()
+
+# The program of the second core, which is an ELF file of its own on the chip: names of both do not meet. Core 1 starts it where the
+# program writes an address at which it has no code.
+function(_markervp_add_core1 NAME)
+  set(core1 ${NAME}_core1)
+  add_library(${core1} OBJECT ${ARGN})
+  get_target_property(libraries ${NAME} LINK_LIBRARIES)
+  target_link_libraries(${core1} PRIVATE ${libraries})
+  target_include_directories(${core1} BEFORE PRIVATE "$<TARGET_PROPERTY:${NAME},INCLUDE_DIRECTORIES>")
+  target_compile_definitions(${core1} PRIVATE "$<TARGET_PROPERTY:${NAME},COMPILE_DEFINITIONS>")
+  _markervp_compile_program(${core1} FALSE)
+  set_target_properties(${core1} PROPERTIES POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden)
+  set(joined "${CMAKE_CURRENT_BINARY_DIR}/${core1}.o")
+  add_custom_command(OUTPUT "${joined}" COMMAND_EXPAND_LISTS VERBATIM
+    COMMAND "${CMAKE_LINKER}" -r -o "${joined}" "$<TARGET_OBJECTS:${core1}>"
+    COMMAND "${CMAKE_OBJCOPY}" --redefine-sym main=markervp_core1_main --keep-global-symbol=markervp_core1_main "${joined}"
+    DEPENDS ${core1} "$<TARGET_OBJECTS:${core1}>")
+  set(entry "${CMAKE_CURRENT_BINARY_DIR}/${core1}.cpp")
+  file(CONFIGURE OUTPUT "${entry}" CONTENT "extern \"C\" int markervp_core1_main();
+extern \"C\" __attribute__((visibility(\"default\"))) void markervp_core1() {
+  markervp_core1_main();
+}
+" @ONLY)
+  set_source_files_properties("${joined}" PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+  target_sources(${NAME} PRIVATE "${entry}" "${joined}")
+endfunction()
+
 # A PS program: a plug-in that `markervp run --program FILE` loads. It finds the HAL in the process that loads it. The sources
 # define hal_program_info, or main(). Drivers of VENDOR_BSP stand on markervp::compat, which need not be named.
+# markervp_add_program(NAME SOURCES a.cpp… [CORE1 b.c…] [LIBRARIES l…] [VENDOR_BSP FOLDER] [FREERTOS FOLDER])
 # The same function builds the programs of sw/apps and those that use the installed package.
 function(markervp_add_program NAME)
-  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP;FREERTOS" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP;FREERTOS" "SOURCES;CORE1;LIBRARIES" ${ARGN})
   if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS OR "VENDOR_BSP" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES
      OR "FREERTOS" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES)
-    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [LIBRARIES library…] [VENDOR_BSP folder] [FREERTOS folder]): "
+    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [CORE1 file…] [LIBRARIES library…] [VENDOR_BSP folder] [FREERTOS folder]): "
       "got '${ARGN}'")
   endif()
   set(description "${CMAKE_CURRENT_BINARY_DIR}/${NAME}_program.cpp")
-  _markervp_is_annotated(annotated ${PROGRAM_SOURCES})
+  _markervp_is_annotated(annotated ${PROGRAM_SOURCES} ${PROGRAM_CORE1})
+  if(annotated AND PROGRAM_CORE1)
+    message(FATAL_ERROR "markervp_add_program(${NAME} … CORE1 …): a program with hal_program_info has no second one. Start a function "
+      "of it on core 1, with hal_cpu_start(1, function)")
+  endif()
   set(MARKERVP_CHARGE "")
   if(NOT annotated)
     file(READ "${markervp_charge_template}" MARKERVP_CHARGE)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${markervp_charge_template}")
   endif()
   configure_file("${markervp_program_template}" "${description}" @ONLY)
   add_library(${NAME} MODULE ${PROGRAM_SOURCES} "${description}" "${markervp_program_heap}")
@@ -188,19 +236,12 @@ function(markervp_add_program NAME)
     target_link_libraries(${NAME} PRIVATE markervp::compat)
     _markervp_use_freertos(${NAME} "${PROGRAM_FREERTOS}" ${PROGRAM_SOURCES})
   endif()
-  # Numbers as on the chip: no contraction. Messages name lines, and all who called: no call becomes a jump.
-  target_compile_options(${NAME} PRIVATE -ffp-contract=off
-    "$<$<COMPILE_LANGUAGE:C,CXX>:-g;-fno-optimize-sibling-calls>")
-  # The platform notices loops without HAL call by the basic blocks that run, and a stack that overflows by its guard page.
-  target_compile_options(${NAME} PRIVATE
-    "$<$<COMPILE_LANGUAGE:C,CXX>:-fsanitize-coverage=trace-pc;-fstack-clash-protection>")
-  # Its code takes time by what it is made of (ps.cpu.code_scale): the same at every optimisation of the build.
+  _markervp_compile_program(${NAME} ${annotated})
   if(NOT annotated)
     target_sources(${NAME} PRIVATE "${markervp_program_assembly}.cpp")
-    target_compile_options(${NAME} PRIVATE "$<$<COMPILE_LANGUAGE:C,CXX>:-O0>"
-      "$<$<COMPILE_LANGUAGE:C,CXX>:SHELL:-include \"${markervp_program_assembly}.h\">"
-      # Its data have 32-bit addresses here, too: casts of pointers to u32 are right.
-      "$<$<COMPILE_LANGUAGE:C>:-Wno-pointer-to-int-cast;-Wno-int-to-pointer-cast>" "$<$<COMPILE_LANGUAGE:CXX>:-fpermissive>")
+  endif()
+  if(PROGRAM_CORE1)
+    _markervp_add_core1(${NAME} ${PROGRAM_CORE1})
   endif()
   # It lies where the chip has it, so that any variable is a DMA buffer; its heap follows. Its malloc() and new are its own.
   target_link_options(${NAME} PRIVATE "LINKER:-Ttext-segment=0x00100000" "LINKER:-Bsymbolic-functions")

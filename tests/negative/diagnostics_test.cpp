@@ -222,6 +222,30 @@ BOOST_FIXTURE_TEST_CASE(invalidations_that_are_missing_early_or_misplaced, Cache
   BOOST_TEST(errors(first, 5, {"--set", "ps.cache_guard_steps=0"}) == "");
 }
 
+// What a DMA was ordered to write and has not yet, in eight lines each.
+BOOST_FIXTURE_TEST_CASE(a_program_that_does_not_wait, Caches) {
+  constexpr int all = 27, byte = 28, ends = 29, polls = 30, again = 31;
+  const std::string why =
+      ": S2MM of pl.axi_dma_1 had been ordered to write it and had not yet, so it saw what was "
+      "there before; wait for the end of the transfer first [/markervp/cpu/not_awaited] at ";
+  for (const unsigned line : lines) {
+    const std::string at = vp::hex(buffer + 32 * line);
+    check(all, line, "the program read " + at + why);
+    const std::string once = errors(byte, line);
+    BOOST_TEST(contains(once, "the program read " + at + " at "), once);
+    BOOST_TEST(contains(once, why), once);
+    BOOST_TEST(contains(once, "caches.cpp:"), once);
+    const std::string open = errors(ends, line);
+    BOOST_TEST(contains(open,
+                        "the program ended while S2MM of pl.axi_dma_1 had written 0 of the "
+                        "128 bytes at " +
+                            vp::hex(buffer + 128 * (line / 4))),
+               open);
+    for (const int right : {polls, again}) BOOST_TEST(errors(right, line) == "");
+  }
+  BOOST_TEST(errors(all, 5, {"--set", "ps.cache_guard_steps=0"}) == "");
+}
+
 // Races are reported once, with both places; what both cores wait for, by name.
 BOOST_AUTO_TEST_CASE(two_cores_err_together) {
   const auto errors = [this](int mistake, int exit_code, const Words& more = {}) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -11,10 +13,12 @@ namespace ps {
 
 /// Charges a program for the basic blocks that it runs, in units of MachineCode::Block.
 ///
-/// While it is on, the blocks' calls of __sanitizer_cov_trace_pc() lead to pieces of code that take
-/// the cost of their block from a number in the program, and call markervp_charge_spent() once it
-/// is used up: about a nanosecond a block. Blocks that cost more than there are pieces for still
-/// call the tracer, and so do all where the host has none: the sum is the same.
+/// While it is on, the blocks' calls of __sanitizer_cov_trace_pc() are replaced by instructions
+/// that take the cost of their block from a number in the program, and call markervp_charge_spent()
+/// once it is used up. Where a call has no room for them behind it (MarkervpAssembly.h makes it),
+/// it leads to a piece of code that does the same, at about a nanosecond a block. Blocks that cost
+/// more than there are pieces for still call the tracer, and so do all where the host has none: the
+/// sum is the same.
 class CodeCharge {
  public:
   /// `area` and `code` are the program's, and outlive it.
@@ -33,12 +37,15 @@ class CodeCharge {
   }
 
  private:
-  /// A call that may lead to a piece of code instead of the tracer.
+  /// A call, and what takes its place while the program is charged.
   struct Call {
-    unsigned char* distance;  ///< of the instruction: 4 bytes, from its end
-    std::int32_t tracer, piece;
+    unsigned char* at;
+    std::size_t bytes;
+    std::array<unsigned char, MachineCode::charged_bytes> traced, charged;
   };
   void lead(bool to_pieces);
+  void charge_here(Call& call, std::uint32_t cost) const;
+  bool charge_elsewhere(Call& call, std::uint32_t cost) const;
 
   const markervp_charge_area& area_;
   std::unordered_map<std::uintptr_t, std::uint32_t> costs_;

@@ -118,17 +118,20 @@ void Cpu::start_by_word() {
   const std::uint32_t entry = debug_word(m_axi, start_address);
   if (entry == 0) return;
   const std::string call = "the program starts core 1 at " + vp::hex(entry) + ", ";
-  if (!code_ || !code_->contains(entry)) {
+  const bool has_code = code_ && code_->contains(entry);
+  void (*const second)(void) = program_->second();
+  if (!has_code && !second) {
     if (std::exchange(cores_->told_start, true)) return;
-    vp::warn(*this, "/markervp/cpu/second_program",
-             call +
-                 "where it has no code, and no other program is loaded: nothing runs there. Link "
-                 "the code of both cores to one program, and start a function of it: "
-                 "Xil_Out32(0xFFFFFFF0, (u32)function)");
+    vp::warn(
+        *this, "/markervp/cpu/second_program",
+        call +
+            "where it has no code, and no other program is loaded: nothing runs there. Name the "
+            "sources of the other program, markervp_add_program(… CORE1 file…), or start a "
+            "function of this one: Xil_Out32(0xFFFFFFF0, (u32)function)");
   } else if (cores_->all.size() == 1) {
     misuse(call + "and the platform has one core: set ps.cores to 2");
   } else {
-    leave_boot_code(1, reinterpret_cast<void (*)(void)>(std::uintptr_t{entry}));
+    leave_boot_code(1, has_code ? reinterpret_cast<void (*)(void)>(std::uintptr_t{entry}) : second);
   }
 }
 

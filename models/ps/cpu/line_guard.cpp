@@ -21,6 +21,8 @@ namespace {
 
 /// More than there are devices that write memory.
 constexpr std::size_t most_ranges = 8;
+/// Decision: a program that polls one word of a page reads it twice before it is known to.
+constexpr unsigned watch_steps_per_page = 8, watch_share = 4;
 
 /// Linux: proc(5), TracerPid.
 bool is_debugged() {
@@ -43,6 +45,11 @@ bool writes(const void* context) {
   return (static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_ERR] & write) != 0;
 }
 
+std::uintptr_t instruction(const void* context) {
+  return static_cast<std::uintptr_t>(
+      static_cast<const ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP]);
+}
+
 void set_trap(void* context, bool trap) {
   greg_t& flags = static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_EFL];
   flags = trap ? flags | trap_flag : flags & ~trap_flag;
@@ -52,18 +59,21 @@ constexpr bool can_step = false;
 bool writes(const void*) {
   return false;
 }
+std::uintptr_t instruction(const void*) {
+  return 0;
+}
 void set_trap(void*, bool) {}
 #endif
 
 }  // namespace
 
-void LineGuard::Page::set(unsigned from, unsigned to, bool value) {
+void LineGuard::Lines::set(unsigned from, unsigned to, bool value) {
   for (unsigned word = from / bits; from < to; ++word) {
     const unsigned until = std::min(to, (word + 1) * bits);
     const unsigned count = until - from;
     const std::uint64_t ones = count == bits ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
     const std::uint64_t mask = ones << from % bits;
-    guarded[word] = value ? guarded[word] | mask : guarded[word] & ~mask;
+    words[word] = value ? words[word] | mask : words[word] & ~mask;
     from = until;
   }
 }
@@ -74,6 +84,7 @@ LineGuard::LineGuard(std::uintptr_t first, std::uintptr_t end, unsigned steps, L
       listener_(std::move(listener)),
       stopped_(steps == 0 || sysconf(_SC_PAGESIZE) != static_cast<long>(page) || is_debugged()),
       steps_left_(steps),
+      watch_steps_left_(steps / watch_share),
       pages_((end - first) / page) {
   struct sigaction action {};
   action.sa_sigaction = &LineGuard::on_trap;
@@ -106,15 +117,38 @@ void LineGuard::for_each_page(std::uintptr_t address, std::size_t bytes, Action 
   }
 }
 
-// DMA engines write page after page while the program sleeps: one call closes them all.
 void LineGuard::guard(std::uintptr_t address, std::size_t bytes) {
+  add(&Page::guarded, address, bytes);
+}
+
+void LineGuard::watch(std::uintptr_t address, std::size_t bytes) {
+  if (watch_steps_left_ != 0) add(&Page::watched, address, bytes);
+}
+
+void LineGuard::release(std::uintptr_t address, std::size_t bytes) {
+  remove(&Page::guarded, address, bytes);
+}
+
+void LineGuard::forget(std::uintptr_t address, std::size_t bytes) {
+  if (used_ == 0) return;
+  const std::uintptr_t from = std::max(address, first_ + used_from_ * page);
+  const std::uintptr_t to = std::min(address + bytes, first_ + used_ * page);
+  if (from < to) remove(&Page::watched, from, to - from);
+}
+
+// DMA engines write page after page while the program sleeps: one call closes them all.
+void LineGuard::add(Lines Page::*kind, std::uintptr_t address, std::size_t bytes) {
   if (stopped_ || bytes == 0) return;
   used_from_ = std::min(used_from_, (address - first_) / page);
   used_ = std::max(used_, (std::min(address + bytes, end_) - 1 - first_) / page + 1);
   for_each_page(address, bytes, [&](std::size_t number, unsigned from, unsigned to) {
     Page& of = pages_[number];
     if (of.left_alone) return;
-    of.set(from, to, true);
+    // Closed for watched lines only, it is guarded from now on: with what is so before it.
+    if (of.closed != 0 && kind == &Page::guarded && of.guarded.empty())
+      of.closed = number > 0 && !pages_[number - 1].guarded.empty() ? pages_[number - 1].closed
+                                                                    : ++closings_;
+    (of.*kind).set(from, to, true);
     if (of.closed != 0) return;
     auto range = std::find_if(ranges_.begin(), ranges_.end(),
                               [number](const Range& r) { return r.to == number; });
@@ -144,15 +178,16 @@ void LineGuard::close() {
   }
 }
 
-void LineGuard::release(std::uintptr_t address, std::size_t bytes) {
+void LineGuard::remove(Lines Page::*kind, std::uintptr_t address, std::size_t bytes) {
   if (stopped_) return;
   close();
   std::size_t from = 0, to = 0;  // to be opened
   for_each_page(address, bytes, [&](std::size_t number, unsigned first, unsigned last) {
     Page& of = pages_[number];
     if (of.closed == 0) return;
-    of.set(first, last, false);
+    (of.*kind).set(first, last, false);
     if (!of.empty()) {
+      if (of.guarded.empty() || kind == &Page::watched) return;
       if (steps_left_ == 0 || !can_step) leave_alone_all_closed_with(number);
       return;
     }
@@ -211,29 +246,48 @@ bool LineGuard::fault(std::uintptr_t address, void* context) {
   if (of.closed == 0) return false;
   const auto in_page = static_cast<unsigned>((address - first_) / line % lines_per_page);
   const bool by_program = ProgramWatch::runs;
-  if (by_program && of.has(in_page) && !writes(context)) {
+  if (by_program && !writes(context)) {
     ProgramWatch::runs = false;
-    listener_(address);
+    offer(of, in_page, address, context);
     ProgramWatch::runs = true;
+  } else {
+    of.watched.set(in_page, in_page + 1, false);
   }
-  of.set(in_page, in_page + 1, false);
-  if (stopped_) return true;
+  of.guarded.set(in_page, in_page + 1, false);
+  if (stopped_ || of.closed == 0) return true;
   // The simulator looks at what the program handed to it.
-  if (of.empty() || !by_program) {
+  if (of.empty() || !by_program || !may_step(of)) {
     open(number);
   } else {
-    step(number, context);
+    step(number, of.guarded.empty(), context);
   }
   return true;
 }
 
+// What is watched may be forgotten meanwhile, and the page be open.
+void LineGuard::offer(Page& page, unsigned number, std::uintptr_t address, const void* context) {
+  if (page.watched.has(number) && !watcher_(address, instruction(context)))
+    page.watched.set(number, number + 1, false);
+  if (page.guarded.has(number)) listener_(address);
+}
+
+// Where nothing but watched lines keeps the page closed, few are looked at.
+bool LineGuard::may_step(Page& page) {
+  if (!page.guarded.empty()) return true;
+  if (watch_steps_left_ == 0 || page.watch_steps == watch_steps_per_page) return false;
+  --watch_steps_left_;
+  ++page.watch_steps;
+  return true;
+}
+
 /// Opens the page for one instruction.
-void LineGuard::step(std::size_t number, void* context) {
+void LineGuard::step(std::size_t number, bool for_watched, void* context) {
   const bool goes_on = stepping_count_ != 0;
-  if (!can_step || stepping_count_ == stepping_.size() || (!goes_on && steps_left_ == 0)) {
+  const bool counts = !goes_on && !for_watched;
+  if (!can_step || stepping_count_ == stepping_.size() || (counts && steps_left_ == 0)) {
     return leave_alone_all_closed_with(number);
   }
-  if (!goes_on) --steps_left_;
+  if (counts) --steps_left_;
   stepping_[stepping_count_++] = number;
   allow(number, number + 1, true);
   trap_is_set_ = true;

@@ -19,6 +19,10 @@ namespace ps {
 /// 20 us, so it is done at most `steps` times in a run. A program that needs more releases buffers
 /// in parts: ranges guarded together with such a page are no longer guarded from then on.
 ///
+/// Lines may be watched instead: their reads are offered before the guard's, again and again as
+/// long as the listener likes. They have fewer steps, a quarter in a run and 8 for each page, after
+/// which the page's lines are no longer watched; what is guarded there stays so.
+///
 /// Code other than the program must use another view of the memory, or remove the guard of the
 /// page. Faults come through vp::FaultTrap, so this works while a program runs. One per process at
 /// a time.
@@ -28,6 +32,8 @@ class LineGuard {
 
   /// Called for a read at `address`, before the program executes the instruction.
   using Listener = std::function<void(std::uintptr_t address)>;
+  /// Called for a read of a watched line by `instruction`. True: the line stays watched.
+  using Watcher = std::function<bool(std::uintptr_t address, std::uintptr_t instruction)>;
 
   /// For memory in [first, end), whole pages. Guards nothing with 0 steps, nor under a debugger,
   /// which would stop at each fault, nor where pages have not 4096 bytes.
@@ -40,6 +46,10 @@ class LineGuard {
   /// again.
   void guard(std::uintptr_t address, std::size_t bytes);
   void release(std::uintptr_t address, std::size_t bytes);
+  /// The same for watched lines, whose reads `watcher` gets. Set it before the first.
+  void on_watched(Watcher watcher) { watcher_ = std::move(watcher); }
+  void watch(std::uintptr_t address, std::size_t bytes);
+  void forget(std::uintptr_t address, std::size_t bytes);
   /// Never guards pages in [first, end): code, or a stack on which the simulator works, too.
   void exclude(std::uintptr_t first, std::uintptr_t end);
   /// Guards nothing any more, now and later.
@@ -59,15 +69,21 @@ class LineGuard {
   static constexpr std::uintptr_t page = 4096;
   static constexpr unsigned lines_per_page = page / line;
   static constexpr unsigned bits = 64;
-  struct Page {
-    std::array<std::uint64_t, lines_per_page / bits> guarded;
-    std::uint32_t closed;  ///< in which go; 0: it is open
-    bool left_alone;
+  struct Lines {
+    std::array<std::uint64_t, lines_per_page / bits> words;
 
-    bool empty() const { return (guarded[0] | guarded[1]) == 0; }
-    bool has(unsigned number) const { return (guarded[number / bits] >> number % bits & 1) != 0; }
+    bool empty() const { return (words[0] | words[1]) == 0; }
+    bool has(unsigned number) const { return (words[number / bits] >> number % bits & 1) != 0; }
     /// Lines [from, to).
     void set(unsigned from, unsigned to, bool value);
+  };
+  struct Page {
+    Lines guarded, watched;
+    std::uint32_t closed;  ///< in which go; 0: it is open
+    bool left_alone;
+    unsigned char watch_steps;  ///< that were made because of watched lines only
+
+    bool empty() const { return guarded.empty() && watched.empty(); }
   };
 
   /// Pages that a device writes one after the other, closed up to `closed_to`.
@@ -78,8 +94,12 @@ class LineGuard {
 
   template <class Action>
   void for_each_page(std::uintptr_t address, std::size_t bytes, Action action);
+  void add(Lines Page::*kind, std::uintptr_t address, std::size_t bytes);
+  void remove(Lines Page::*kind, std::uintptr_t address, std::size_t bytes);
+  void offer(Page& page, unsigned number, std::uintptr_t address, const void* context);
+  bool may_step(Page& page);
   bool fault(std::uintptr_t address, void* context);
-  void step(std::size_t number, void* context);
+  void step(std::size_t number, bool for_watched, void* context);
   void end_step(void* context);
   void close();
   void open(std::size_t number);
@@ -90,8 +110,9 @@ class LineGuard {
   std::uintptr_t first_;
   std::uintptr_t end_;
   Listener listener_;
+  Watcher watcher_;
   bool stopped_ = false;
-  unsigned steps_left_;
+  unsigned steps_left_, watch_steps_left_;
   SparseArray<Page> pages_;
   // Pages that were ever guarded lie in [used_from_, used_): most of the memory never is.
   std::size_t used_from_ = SIZE_MAX, used_ = 0;

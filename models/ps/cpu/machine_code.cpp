@@ -125,6 +125,17 @@ double cost_of(const Instruction& instruction) {
          writes * cost::store;
 }
 
+constexpr std::size_t room_bytes = 12;
+
+/// A call of the tracer was replaced by what charges the block.
+bool is_charged(std::uintptr_t at, std::uintptr_t end) {
+  constexpr std::size_t jump = 11;
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(at);
+  return at + MachineCode::charged_bytes <= end &&
+         std::memcmp(bytes, MachineCode::charged_begin, sizeof MachineCode::charged_begin) == 0 &&
+         bytes[jump] == 0x0F && bytes[jump + 1] == 0x8E;
+}
+
 /// The address that a stub of the linker's jumps to, through a table that the loader filled.
 std::optional<std::uintptr_t> through_table(const Decoder& decoder, std::uintptr_t stub,
                                             std::uintptr_t end) {
@@ -177,6 +188,13 @@ class JumpTable {
 
 }  // namespace
 
+bool MachineCode::has_room(std::uintptr_t start) {
+  constexpr unsigned char first[] = {0x0F, 0x1F, 0x80}, second[] = {0x0F, 0x1F, 0x44, 0, 0};
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(start);
+  return std::memcmp(bytes, first, sizeof first) == 0 &&
+         std::memcmp(bytes + 7, second, sizeof second) == 0;
+}
+
 std::vector<MachineCode::Block> MachineCode::blocks(std::uintptr_t tracer) const {
   const Decoder decoder;
   std::vector<Block> found;
@@ -208,6 +226,15 @@ std::vector<MachineCode::Block> MachineCode::blocks(std::uintptr_t tracer) const
       close();
       found.push_back({at, 1});
       in_block = true;
+      if (at + room_bytes <= end_ && has_room(at)) at += room_bytes;
+      continue;
+    }
+    // What a charge that is used up leads to: call, addition, jump.
+    if (instruction->head.mnemonic == ZYDIS_MNEMONIC_CALL && instruction->target() == at) {
+      for (auto next = decoder.at(at, end_); next; next = decoder.at(at, end_)) {
+        at = next->next;
+        if (next->head.mnemonic == ZYDIS_MNEMONIC_JMP) break;
+      }
       continue;
     }
     cycles += cost_of(*instruction);
@@ -230,6 +257,10 @@ MachineCode::Reach MachineCode::reach(std::uintptr_t from) const {
     open.pop_back();
     JumpTable table;
     while (seen.insert(at).second) {
+      if (contains(at) && is_charged(at, end_)) {
+        at += charged_bytes;
+        continue;
+      }
       const auto instruction = contains(at) ? decoder.at(at, end_) : std::nullopt;
       if (!instruction || seen.size() > most) return Reach::returns;
       const auto category = instruction->head.meta.category;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -25,6 +26,12 @@ class MachineCode {
   /// All blocks that call `tracer` (-fsanitize-coverage=trace-pc), by address. What lies between
   /// two calls belongs to the first, what a function does before its first call to that one.
   std::vector<Block> blocks(std::uintptr_t tracer) const;
+
+  /// Behind a call of the tracer there are no-ops, which with it make room for `charged_bytes`.
+  static bool has_room(std::uintptr_t start);
+  /// Of what takes its place, CodeCharge, and how it begins: a subtraction from memory.
+  static constexpr std::size_t charged_bytes = 17;
+  static constexpr unsigned char charged_begin[] = {0x48, 0x81, 0x2D};
 
   /// Where a function may get to.
   enum class Reach {

@@ -259,10 +259,14 @@ class SharedObject {
   }
   const ProgramImage& image() const { return image_; }
   CodeCharge* charge() { return charge_ ? &*charge_ : nullptr; }
-  bool may_start_core() const { return may_start_core_; }
+  bool may_start_core() const { return may_start_core_ || second() != nullptr; }
   bool is_sanitized() const { return is_sanitized_; }
   void (*boot() const)(void) {
     return reinterpret_cast<void (*)(void)>(image_.symbol("markervp_boot"));
+  }
+
+  void (*second() const)(void) {
+    return reinterpret_cast<void (*)(void)>(image_.symbol("markervp_core1"));
   }
 
  private:
@@ -310,6 +314,7 @@ class LoadedProgram : public Program {
   bool may_start_core() const override { return object_->may_start_core(); }
   bool is_sanitized() const override { return object_->is_sanitized(); }
   void (*boot() const)(void) override { return object_->boot(); }
+  void (*second() const)(void) override { return object_->second(); }
 
  private:
   std::shared_ptr<SharedObject> object_;

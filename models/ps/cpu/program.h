@@ -56,6 +56,8 @@ class Program {
   /// The substitute for the board's boot code, which runs before the entry function:
   /// `markervp_boot` of its libraries. May be null.
   virtual void (*boot() const)(void) { return nullptr; }
+  /// The second core's program, `markervp_core1`, which is another file on the chip. Null: none.
+  virtual void (*second() const)(void) { return nullptr; }
 
   /// Makes its static variables what they were after loading: before each run. Variables inside
   /// functions are fresh too. What a static object holds on the heap is not reset; programs for the

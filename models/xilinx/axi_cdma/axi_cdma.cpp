@@ -74,11 +74,13 @@ void AxiCdma::start() {
   }
   sr_.clear_bits(cdmasr::Idle);
   done_bytes_ = 0;
+  m_axi.orders.add(da_, cr_.any(cdmacr::Key_Hole_Write) ? memory_bytes.get() : btt_.value());
   take(State::starting, start_clocks + read_clocks);
   wake_at(done_at_);
 }
 
 void AxiCdma::fail(std::uint32_t error) {
+  m_axi.orders.drop();
   sr_.set_bits(error | cdmasr::Err_Irq | cdmasr::Idle);
   state_ = State::idle;
   done_at_ = vp::Clock::never;
@@ -98,6 +100,7 @@ void AxiCdma::fail_on_bus(bool nothing_there) {
 
 void AxiCdma::reset() {
   s_axi_lite.reset();
+  m_axi.orders.drop();
   state_ = State::idle;
   done_at_ = vp::Clock::never;
 }
@@ -142,6 +145,7 @@ void AxiCdma::write_burst() {
 void AxiCdma::burst_written() {
   done_bytes_ += burst_bytes_;
   if (done_bytes_ < btt_) return read_burst();
+  m_axi.orders.end();
   sr_.set_bits(cdmasr::IOC_Irq | cdmasr::Idle);
   state_ = State::idle;
   done_at_ = vp::Clock::never;

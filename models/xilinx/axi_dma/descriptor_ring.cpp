@@ -90,6 +90,21 @@ void DescriptorRing::go_on(std::uint64_t cycle) {
   fetch_from_ = cycle + engine.tail_latency;
 }
 
+// They are read later, and what is wrong in them found then.
+void DescriptorRing::order_to_tail(WriteOrders& orders) {
+  const std::uint32_t first = ordered_to_;
+  do {
+    const std::uint32_t at = ordered_to_;
+    std::uint32_t words[descriptor::bytes / word_bytes];
+    if (!engine.m_axi.peek(at, words, sizeof words)) return;
+    if ((words[descriptor::STATUS / word_bytes] & descriptor::Cmplt) != 0) return;
+    orders.add(words[descriptor::BUFFER_ADDRESS / word_bytes],
+               words[descriptor::CONTROL / word_bytes] & length_mask);
+    ordered_to_ = pointer(words[descriptor::NXTDESC / word_bytes]);
+    if (at == taildesc_) return;
+  } while (ordered_to_ != first);
+}
+
 bool DescriptorRing::wants_descriptor() const {
   return !paused_ && queue_.size() < queue_size;
 }

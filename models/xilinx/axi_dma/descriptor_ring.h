@@ -100,9 +100,11 @@ class DescriptorRing {
 
   // What software does.
   /// RS rose: the first descriptor is CURDESC's.
-  void start() { next_ = curdesc_; }
+  void start() { next_ = ordered_to_ = curdesc_; }
   /// TAILDESC was written while the channel runs.
   void go_on(std::uint64_t cycle);
+  /// Adds the buffers of the descriptors that a new tail brought.
+  void order_to_tail(WriteOrders& orders);
   /// Puts back what software wrote to CURDESC while it may not.
   void restore_current() { curdesc_ = current_; }
   void accept_current() { current_ = curdesc_; }
@@ -164,6 +166,7 @@ class DescriptorRing {
 
   std::uint32_t current_ = 0;     ///< CURDESC
   std::uint32_t next_ = 0;        ///< the descriptor to read next
+  std::uint32_t ordered_to_ = 0;  ///< the one behind those whose buffers are ordered
   bool paused_ = true;            ///< at the tail, or not started
   std::uint64_t fetch_from_ = 0;  ///< edge from which the next one may be read
   std::uint64_t fetch_began_ = 0;

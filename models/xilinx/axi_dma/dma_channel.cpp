@@ -133,6 +133,7 @@ void DmaChannel::length_written(std::uint32_t word) {
     sampled_address_ = address;
     dmasr.clear_bits(dmasr::Idle);
     core_.check_buffer(name_, address, length);
+    if (orders()) orders()->add(address, length);
     if (transfer_listener_) transfer_listener_(true);
     core_.plan_edge(std::max(accepted_at_ + 1, starts_at()));
   }
@@ -195,6 +196,7 @@ void DmaChannel::finish(std::uint64_t cycle, std::uint32_t status, bool ends_pac
     return;
   }
   ring_->done(cycle, descriptor::Cmplt | status, ends_packet);
+  if (orders()) orders()->end();
   leave(1);
 }
 
@@ -224,6 +226,7 @@ void DmaChannel::report_status(std::uint64_t cycle) {
   }
   phase_ = Phase::idle;
   completed();
+  if (orders()) orders()->end();
   set_interrupt(dmasr::IOC_Irq, cycle);
   if (running()) {
     dmasr.set_bits(dmasr::Idle);
@@ -270,6 +273,7 @@ void DmaChannel::stop() {
 void DmaChannel::drop() {
   if (phase_ == Phase::moving) abandon();
   if (ring_) ring_->drop_work();
+  if (orders()) orders()->drop();
   under_way_ = 0;
   in_order_ = false;
   phase_ = Phase::idle;
@@ -310,6 +314,7 @@ void DmaChannel::reset() {
   abandon();
   forget_bursts();
   if (ring_) ring_->reset();
+  if (orders()) orders()->drop();
   under_way_ = 0;
   in_order_ = false;
   control_ = dmacr;
@@ -352,6 +357,7 @@ void DmaChannel::tail_written(std::uint32_t word) {
   } else {
     in_order_ = true;
     dmasr.clear_bits(dmasr::Idle);
+    if (orders() && !cyclic()) ring_->order_to_tail(*orders());
     ring_->go_on(now());
     core_.plan_edge(std::max(now() + 1, ring_->next_edge(now())));
   }
@@ -367,6 +373,7 @@ void DmaChannel::pause_ring(std::uint64_t cycle) {
   const unsigned unused = withdraw_unused();
   ring_->drop_newest(unused);
   if (unused != 0) leave(unused);
+  if (orders()) orders()->drop(under_way_);
   core_.plan_edge(cycle + 1);
 }
 
@@ -417,12 +424,21 @@ void DmaChannel::begin_descriptor(const Descriptor& next, std::uint64_t cycle) {
   }
   const Segment segment = segment_of(next);
   core_.check_buffer(name_, segment.address, segment.bytes);
+  order(segment);
   if (segment.bytes == 0) {
     fail(cycle + core_.timing().completion_latency, dmasr::DMAIntErr);
   } else {
     const bool waited = next.ready_at < cycle;
     begin(segment, waited ? cycle + ring_->engine.descriptor_gap : cycle);
   }
+}
+
+// A tail has ordered it, but for that of a cyclic chain.
+void DmaChannel::order(const Segment& segment) {
+  WriteOrders* const kept = orders();
+  if (!kept) return;
+  kept->is_cyclic = cyclic();
+  if (kept->open().size() < under_way_) kept->add(segment.address, segment.bytes);
 }
 
 DmaChannel::Segment DmaChannel::segment_of(const Descriptor& from) const {

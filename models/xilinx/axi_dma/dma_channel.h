@@ -187,6 +187,8 @@ class DmaChannel {
   virtual void forget_bursts() = 0;
   /// The transfer has reached memory or stream.
   virtual void completed() {}
+  /// Of what it writes: where software's orders are kept. Null: it writes nothing.
+  virtual WriteOrders* orders() { return nullptr; }
 
   /// The oldest transfer is done and shows in the status register on edge `cycle`, or in that of
   /// its descriptor later: bytes and frame bits of its status are `status`.
@@ -234,6 +236,7 @@ class DmaChannel {
   }
   bool ring_rests() const;
   bool cyclic() const { return dmacr.any(axi_dma::dmacr::Cyclic_BD_Enable); }
+  void order(const Segment& segment);
   void run_ring(std::uint64_t cycle);
   void pause_ring(std::uint64_t cycle);
   void begin_descriptor(const Descriptor& next, std::uint64_t cycle);

@@ -55,6 +55,16 @@ void MemoryPort::write(std::uint64_t address, unsigned char* data, unsigned byte
            fixed ? std::min(bytes, beat_bytes) : bytes, nullptr);
 }
 
+bool MemoryPort::peek(std::uint64_t address, void* data, unsigned bytes) {
+  tlm::tlm_generic_payload payload;
+  payload.set_read();
+  payload.set_address(address);
+  payload.set_data_ptr(static_cast<unsigned char*>(data));
+  payload.set_data_length(bytes);
+  payload.set_streaming_width(bytes);
+  return link.transport_debug(payload) == bytes;
+}
+
 void MemoryPort::transfer(tlm::tlm_command command, std::uint64_t address, unsigned char* data,
                           unsigned bytes, unsigned width, unsigned char* enables) {
   payload_.set_command(command);
@@ -66,6 +76,7 @@ void MemoryPort::transfer(tlm::tlm_command command, std::uint64_t address, unsig
   payload_.set_byte_enable_length(enables ? bytes : 0);
   payload_.set_dmi_allowed(false);
   payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+  if (command == tlm::TLM_WRITE_COMMAND) orders.wrote(address, bytes);
   if (access_directly()) return;
   done_ = false;
   scheduler_.notify(start_);

@@ -7,6 +7,7 @@
 
 #include <vp/clock_scheduler.h>
 #include <vp/mm_link.h>
+#include <xilinx/axi_dma/write_orders.h>
 
 namespace xilinx {
 
@@ -33,6 +34,8 @@ class MemoryPort : public sc_core::sc_module {
   const char* kind() const override { return "xilinx::MemoryPort"; }
 
   vp::MmLink link{"link"};
+  /// What it is to write, if its core says so.
+  WriteOrders orders;
 
   /// Uses `path` together with other ports. Before the first burst.
   void share(MemoryPath& path) { path_ = &path; }
@@ -51,6 +54,9 @@ class MemoryPort : public sc_core::sc_module {
 
   /// One burst, read at once if the memory gives direct access to all of it. False: not read.
   bool read_directly(std::uint64_t address, void* data, unsigned bytes);
+
+  /// Reads without time or trace; false: no such memory.
+  bool peek(std::uint64_t address, void* data, unsigned bytes);
 
   /// The last burst is over.
   bool done() const { return done_; }

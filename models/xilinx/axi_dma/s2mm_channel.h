@@ -53,6 +53,7 @@ class S2mmChannel : public DmaChannel {
   void abandon() override;
   void forget_bursts() override;
   void completed() override;
+  WriteOrders* orders() override { return &m_axi.orders; }
 
   void take_beats(std::uint64_t cycle);
   void take_from_source(std::uint64_t cycle);

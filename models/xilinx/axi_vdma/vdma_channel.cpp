@@ -125,6 +125,18 @@ bool VdmaChannel::is_order_possible() {
   return problem.empty();
 }
 
+void VdmaChannel::order_stores() {
+  m_axi.orders.is_cyclic = true;
+  const std::uint32_t bytes = (vsize_ - 1) * (stride_ & 0xFFFF) + hsize_;
+  const bool parks = !cr_.any(vdmacr::Circular_Park);
+  if (parks)
+    return m_axi.orders.add(*addresses_[(park_ >> park_shift_ & park_mask) % frame_stores_], bytes);
+  const std::uint32_t count =
+      cr_.any(vdmacr::FrameCntEn) ? (cr_ & sr_count) >> vdmacr::IRQFrameCount_shift : frame_stores_;
+  for (std::uint32_t i = 0; i < std::min(count, frame_stores_); ++i)
+    m_axi.orders.add(*addresses_[(following() + i) % frame_stores_], bytes);
+}
+
 VdmaChannel::Frame VdmaChannel::begin_frame() {
   const bool parks = !cr_.any(vdmacr::Circular_Park);
   const bool locked = cr_.any(vdmacr::GenlockEn) && cr_.any(vdmacr::GenlockSrc);
@@ -142,6 +154,7 @@ VdmaChannel::Frame VdmaChannel::begin_frame() {
 
 void VdmaChannel::end_frame() {
   ++frames;
+  m_axi.orders.end();
   newest_ = store_;
   std::uint32_t left = (sr_ & sr_count) >> vdmacr::IRQFrameCount_shift;
   const bool was_last = left <= 1;
@@ -177,6 +190,7 @@ void VdmaChannel::halt() {
   armed_ = false;
   cr_.clear_bits(vdmacr::RS);
   sr_.set_bits(vdmasr::Halted);
+  m_axi.orders.drop();
   abandon();
 }
 
@@ -186,6 +200,7 @@ void VdmaChannel::reset() {
   armed_ = begun_ = false;
   newest_ = -1;
   store_ = 0;
+  m_axi.orders.drop();
   abandon();
   update();
 }

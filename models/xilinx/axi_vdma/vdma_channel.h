@@ -69,6 +69,8 @@ class VdmaChannel : public vp::Clocked {
 
   /// It runs, and VSIZE was written since.
   bool armed() const { return armed_; }
+  /// Says which memory the first round of frames is to fill.
+  void order_stores();
   /// Takes what the registers say, for a frame in the store that is next.
   Frame begin_frame();
   /// Counts it: may raise the interrupt, and halts the channel if that was all.

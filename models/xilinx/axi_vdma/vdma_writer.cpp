@@ -51,6 +51,7 @@ void VdmaWriter::started() {
              "nothing drives TUSER of its stream, so no frame ever begins: drive TUSER(0) with the "
              "first pixel");
   }
+  order_stores();
   wake();
 }
 

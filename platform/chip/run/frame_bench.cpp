@@ -263,6 +263,7 @@ void FrameBench::take_new_warnings(std::vector<std::string>& list) {
 
 std::vector<std::string> FrameBench::finish() {
   if (waiting_) hand_over(waiting_->end_ps);
+  cache_contract_.finish();
   zynq_.design().finish();
   std::vector<std::string> list;
   if (settling_.settling_showings > 0) list = std::move(settling_.warnings);

@@ -61,7 +61,8 @@ CacheContract::CacheContract(Zynq& zynq)
       memory_(end_ - first_),
       written_(zynq.ps.ddr.behind(static_cast<std::uint32_t>(first_))),
       guard_(first_, end_, zynq.ps.cache_guard_steps,
-             [this](std::uintptr_t address) { program_reads(address); }) {
+             [this](std::uintptr_t address) { program_reads(address); }),
+      early_reads_(zynq, guard_, first_, end_) {
   for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     watches_.emplace_back(*this, port->link);
   }
@@ -200,6 +201,7 @@ void CacheContract::device_wrote(std::uint64_t address, std::uint64_t bytes) {
   if (!watches(address, bytes)) return;
   mark(address, bytes, current, dropped);
   copy(address, bytes);
+  early_reads_.written(address, bytes);
   if (!off_ && (marks_at(address) & uncached) == 0) guard_.guard(address, bytes);
 }
 

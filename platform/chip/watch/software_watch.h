@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <chip/system/zynq.h>
+#include <chip/watch/early_reads.h>
 #include <ps/cpu/line_guard.h>
 #include <ps/memory/memory.h>
 #include <vp/mm_link.h>
@@ -20,7 +21,8 @@ namespace platform {
 /// * a device is about to write memory that the program wrote and never flushed: what the cache
 ///   writes back later comes over the new data;
 /// * the program reads memory that a device wrote, and has not invalidated it since;
-/// * the program reads what it wrote, and invalidated before it was flushed.
+/// * the program reads what it wrote, and invalidated before it was flushed;
+/// * the program does not wait for a device: EarlyReads.
 ///
 /// And of each transfer that begins in a buffer of hal_dma_allocate() and ends behind it.
 ///
@@ -42,6 +44,9 @@ class CacheContract {
   /// The test bench placed something there, flushed: what the program then makes of it is not
   /// looked at, which would cost a tenth of the speed with inputs.
   void placed(std::uint64_t address, std::uint64_t bytes) { mark(address, bytes, current | given); }
+
+  /// The run is over, however it ended.
+  void finish() { early_reads_.finish(); }
 
   /// Asked of each access of a device to the DDR until it finds one: what is wrong with its place,
   /// as the end of a sentence; "" if nothing is.
@@ -102,6 +107,7 @@ class CacheContract {
   ps::SparseArray<unsigned char> memory_;  ///< behind the caches
   const unsigned char* const written_;     ///< the same bytes as the program has them
   ps::LineGuard guard_;
+  EarlyReads early_reads_;
   bool off_ = false;          ///< the data caches are
   bool all_current_ = false;  ///< all of the caches was flushed once: no line was never
   std::function<std::string(std::uint64_t, std::uint64_t)> owner_problem_;

@@ -233,4 +233,21 @@ void XGpioPs_IntrHandler(const XGpioPs* InstancePtr) {
   }
 }
 
+void XGpioPs_ResetHw(UINTPTR BaseAddress) {
+  constexpr u32 types[] = {XGPIOPS_INTTYPE_BANK0_RESET, XGPIOPS_INTTYPE_BANK1_RESET,
+                           XGPIOPS_INTTYPE_BANK2_RESET, XGPIOPS_INTTYPE_BANK3_RESET};
+  const auto base = static_cast<u32>(BaseAddress);
+  for (u32 bank = 0; bank < ps_gpio::bank_count; ++bank) {
+    const u32 registers = base + bank * XGPIOPS_REG_MASK_OFFSET;
+    hal_write32(registers + XGPIOPS_INTDIS_OFFSET, ~0u);
+    hal_write32(registers + XGPIOPS_INTSTS_OFFSET, ~0u);
+    hal_write32(registers + XGPIOPS_DIRM_OFFSET, 0);
+    hal_write32(registers + XGPIOPS_OUTEN_OFFSET, 0);
+    hal_write32(base + XGPIOPS_DATA_OFFSET + bank * XGPIOPS_DATA_BANK_OFFSET, 0);
+    hal_write32(registers + XGPIOPS_INTTYPE_OFFSET, types[bank]);
+    hal_write32(registers + XGPIOPS_INTPOL_OFFSET, 0);
+    hal_write32(registers + XGPIOPS_INTANY_OFFSET, 0);
+  }
+}
+
 }  // extern "C"

@@ -312,4 +312,13 @@ void XIicPs_DisableSlaveMonitor(XIicPs* InstancePtr) {
   XIicPs_DisableInterrupts(InstancePtr->Config.BaseAddress, XIICPS_IXR_SLV_RDY_MASK);
 }
 
+void XIicPs_ResetHw(UINTPTR BaseAddress) {
+  XIicPs_DisableAllInterrupts(BaseAddress);
+  XIicPs_WriteReg(BaseAddress, XIICPS_CR_OFFSET, XIICPS_CR_CLR_FIFO_MASK);
+  XIicPs_WriteReg(BaseAddress, XIICPS_ISR_OFFSET, XIICPS_IXR_ALL_INTR_MASK);
+  XIicPs_WriteReg(BaseAddress, XIICPS_TIME_OUT_OFFSET, XIICPS_TO_RESET_VALUE);
+  XIicPs_WriteReg(BaseAddress, XIICPS_TRANS_SIZE_OFFSET, 0);
+  XIicPs_WriteReg(BaseAddress, XIICPS_CR_OFFSET, 0);
+}
+
 }  // extern "C"

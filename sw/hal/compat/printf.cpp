@@ -87,12 +87,10 @@ const char* parse_field(const char* format, Field& field) {
 
 extern "C" {
 
-void xil_printf(const char8* ctrl1, ...) {
+void xil_vprintf(const char8* ctrl1, va_list arguments) {
   constexpr const char* lower = "0123456789abcdef";
   constexpr const char* upper = "0123456789ABCDEF";
   Output out;
-  va_list arguments;
-  va_start(arguments, ctrl1);
   for (const char* format = ctrl1; *format != 0; ++format) {
     if (*format != '%') {
       out.put(*format);
@@ -140,6 +138,12 @@ void xil_printf(const char8* ctrl1, ...) {
         out.put(*format);
     }
   }
+}
+
+void xil_printf(const char8* ctrl1, ...) {
+  va_list arguments;
+  va_start(arguments, ctrl1);
+  xil_vprintf(ctrl1, arguments);
   va_end(arguments);
 }
 

@@ -28,6 +28,6 @@ _refuse("The clock wizard is modelled, but its driver is not part of markervp::c
   xclk_wiz.h xclk_wiz_hw.h)
 _refuse("The Zynq-7000 has no such device: this program is for a Zynq UltraScale+" xipipsu.h xsecure.h xsecure_aes.h xsecure_sha.h
   xdpdma.h xdppsu.h xavbuf.h xzdma.h xcsudma.h xsysmonpsu.h xresetps.h xqspipsu.h xrtcpsu.h pm_api_sys.h pm_defs.h)
-_refuse("OpenAMP loads a second program, and one program can be loaded: start core 1 at a function of this one" openamp/open_amp.h
+_refuse("OpenAMP loads a second program, and such a loader has nothing to load here: name the other program's sources behind CORE1 in markervp_add_program(), or start core 1 at a function of this one" openamp/open_amp.h
   openamp/hil.h metal/sys.h metal/irq.h metal/io.h)
 _refuse("Name your copy of the kernel: markervp_add_program(… FREERTOS <FreeRTOS-Kernel>)" FreeRTOS.h)

@@ -256,4 +256,15 @@ void XSpiPs_GetDelays(const XSpiPs* InstancePtr, u8* DelayNss, u8* DelayBtwn, u8
   *DelayInit = static_cast<u8>(word);
 }
 
+void XSpiPs_ResetHw(UINTPTR BaseAddress) {
+  XSpiPs_WriteReg(BaseAddress, XSPIPS_IDR_OFFSET, XSPIPS_IXR_DISABLE_ALL_MASK);
+  XSpiPs_WriteReg(BaseAddress, XSPIPS_ER_OFFSET, 0);
+  XSpiPs_WriteReg(BaseAddress, XSPIPS_TXWR_OFFSET, XSPIPS_TXWR_RESET_VALUE);
+  XSpiPs_WriteReg(BaseAddress, XSPIPS_RXWR_OFFSET, XSPIPS_RXWR_RESET_VALUE);
+  while ((XSpiPs_ReadReg(BaseAddress, XSPIPS_SR_OFFSET) & XSPIPS_IXR_RXNEMPTY_MASK) != 0)
+    (void)XSpiPs_ReadReg(BaseAddress, XSPIPS_RXD_OFFSET);
+  XSpiPs_WriteReg(BaseAddress, XSPIPS_SR_OFFSET, XSPIPS_IXR_WR_TO_CLR_MASK);
+  XSpiPs_WriteReg(BaseAddress, XSPIPS_CR_OFFSET, XSPIPS_CR_RESET_STATE | XSPIPS_CR_SSCTRL_MASK);
+}
+
 }  // extern "C"

@@ -5,6 +5,7 @@
 
 #include <hal/hal.h>
 #include <xil_exception.h>
+#include <xil_printf.h>
 #include <xparameters.h>
 #include <xscugic.h>
 #include <xscutimer.h>
@@ -185,4 +186,10 @@ void vPortEndScheduler(void) {
   XScuTimer_Stop(&tick_timer);
   hal_after_interrupt(NULL);
   setcontext(&main_place);
+}
+
+/* As the vendor's port has it. */
+__attribute__((weak)) void vApplicationAssert(const char* pcFile, uint32_t ulLine) {
+  xil_printf("FreeRTOS: an assertion of %s does not hold, line %u\r\n", pcFile, (unsigned)ulLine);
+  exit(1);
 }

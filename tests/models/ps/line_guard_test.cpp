@@ -132,6 +132,40 @@ BOOST_AUTO_TEST_CASE(who_runs_out_of_steps_is_left_alone) {
   BOOST_TEST(told.size() == 1u);
 }
 
+// A quarter of the steps is theirs, 8 a page; what is guarded keeps its own.
+BOOST_AUTO_TEST_CASE(watched_lines_are_offered_as_long_as_wanted) {
+  std::vector<std::uintptr_t> offered;
+  bool wanted = true;
+  guard.on_watched([&](std::uintptr_t address, std::uintptr_t) {
+    offered.push_back(address);
+    return wanted;
+  });
+  guard.watch(first, page);
+  guard.watch(first + page, page);
+  guard.guard(first + page + line, line);
+  guard.watch(first + 2 * page, page);
+  guard.forget(first + 2 * page, line);
+  run([&] {
+    for (int i = 0; i < 3; ++i) static_cast<void>(read(first + 5));
+    wanted = false;
+    for (int i = 0; i < 3; ++i) static_cast<void>(read(first + 5));
+    BOOST_TEST(offered.size() == 4u);
+    for (int i = 0; i < 8; ++i) static_cast<void>(read(first + 5));  // steps of the page
+    static_cast<void>(read(first + line));
+    BOOST_TEST(offered.size() == 4u);
+    static_cast<void>(read(first + page + line));
+    BOOST_TEST(offered.size() == 5u);
+    BOOST_TEST(told.size() == 1u);
+    static_cast<void>(read(first + 2 * page));
+    BOOST_TEST(offered.size() == 5u);
+    static_cast<void>(read(first + 2 * page + line));
+    BOOST_TEST(offered.size() == 6u);
+    at(first + 2 * page + 2 * line) = 1;
+    static_cast<void>(read(first + 2 * page + 2 * line));
+    BOOST_TEST(offered.size() == 6u);
+  });
+}
+
 BOOST_AUTO_TEST_CASE(who_is_stopped_guards_nothing) {
   guard.guard(first, page);
   guard.stop();

@@ -35,6 +35,19 @@ enum class Case : std::uint32_t {
   uses_pointers,
 };
 
+/// The second core and the memory of the boot code.
+struct SecondCore {
+  explicit SecondCore(Bench& bench)
+      : ocm("ocm", bench.cpu_clock), cpu("cpu1", bench.cpu_clock, bench.cpu) {
+    bench.bus.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
+    cpu.n_irq(n_irq);
+    cpu.m_axi.socket.bind(bench.bus.socket);
+  }
+  ps::Ocm ocm;
+  vp::Signal<bool> n_irq{"n_irq1", 1, true};
+  ps::Cpu cpu;
+};
+
 /// A core with DDR that ran a program.
 struct Run : Bench {
   Run(const std::string& name, const Settings& settings = {}, Case what = Case::writes_for_ever)
@@ -71,8 +84,9 @@ struct Run : Bench {
 };
 
 /// Of the four computations of kernels.c, in cycles of 1 ns.
-std::vector<double> kernel_cycles(const Settings& settings = {}) {
-  Run run("kernels", settings);
+std::vector<double> kernel_cycles(const Settings& settings = {},
+                                  const std::string& program = "kernels") {
+  Run run(program, settings);
   run.start();
   run.cpu.check();
   const std::vector<std::uint64_t> times = run.device.times();
@@ -114,6 +128,20 @@ BOOST_AUTO_TEST_CASE(the_same_time_in_each_run_and_when_blocks_are_counted) {
   BOOST_TEST(counts.size() > 20);
 }
 
+// In line where the compiler leaves room, by calls elsewhere.
+BOOST_AUTO_TEST_CASE(however_blocks_are_charged_they_take_the_same_time) {
+  BOOST_TEST(kernel_cycles({}, "kernels_called") == kernel_cycles(),
+             boost::test_tools::per_element());
+  for (const bool room : {true, false}) {
+    ps::ProgramWatch::BlockCounts counts;
+    ps::ProgramWatch::block_counts = &counts;
+    Run run(room ? "kernels" : "kernels_called");
+    run.start();
+    ps::ProgramWatch::block_counts = nullptr;
+    for (const auto& [block, count] : counts) BOOST_TEST(ps::MachineCode::has_room(block) == room);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_scale_multiplies_it_and_0_is_no_time) {
   const std::vector<double> once = kernel_cycles();
   const std::vector<double> doubled = kernel_cycles({"cpu.code_scale=2"});
@@ -152,16 +180,34 @@ BOOST_AUTO_TEST_CASE(an_endless_loop_by_design_ends_at_the_limit_without_failure
 
 BOOST_AUTO_TEST_CASE(the_second_core_starts_at_the_word_of_the_boot_code) {
   Run run("plain", {}, Case::starts_second);
-  ps::Ocm ocm("ocm", run.cpu_clock);
-  run.bus.map("ocm", ps::Ocm::base, ps::Ocm::size).bind(ocm.socket);
-  vp::Signal<bool> n_irq1{"n_irq1", 1, true};
-  ps::Cpu cpu1("cpu1", run.cpu_clock, run.cpu);
-  cpu1.n_irq(n_irq1);
-  cpu1.m_axi.socket.bind(run.bus.socket);
+  const SecondCore second(run);
   run.start();
   run.cpu.check();
   BOOST_TEST(run.written() == std::vector<std::uint32_t>{21});
   BOOST_TEST(run.reports.warnings().empty());
+}
+
+// Where the second file would lie, there is no code.
+BOOST_AUTO_TEST_CASE(each_core_may_have_a_program_of_its_own) {
+  BOOST_TEST(ps::Program::load(MARKERVP_TEST_PROGRAMS "/files.so")->may_start_core());
+  Run run("files");
+  const SecondCore second(run);
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.written() == std::vector<std::uint32_t>{41});
+  BOOST_TEST(run.reports.warnings().empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_second_program_that_is_not_there_is_told) {
+  BOOST_TEST(!ps::Program::load(MARKERVP_TEST_PROGRAMS "/file.so")->may_start_core());
+  Run run("file", {"cpu.timeout=1 ms"});
+  const SecondCore second(run);
+  run.start();
+  BOOST_TEST(!run.failure().empty());
+  BOOST_TEST_REQUIRE(run.reports.warnings().size() == 1u);
+  const std::string told = run.reports.warnings().front().message;
+  BOOST_TEST(contains(told, "starts core 1 at 0x02000000, where it has no code"), told);
+  BOOST_TEST(contains(told, "markervp_add_program(… CORE1 file…)"), told);
 }
 
 BOOST_AUTO_TEST_CASE(a_word_of_the_boot_code_starts_no_core_that_the_platform_lacks) {

@@ -42,8 +42,15 @@ enum class Mistake {
   receive_rewritten,  ///< nor is it, and the program writes it before it reads it
   receive_in_parts,   ///< all is in two parts, that meet in the line
   receive_twice,      ///< before the transfer and after it
+
+  ahead_all,   ///< the packet of the line is read before it comes
+  ahead_byte,  ///< a byte of the line is
+  ahead_end,   ///< the program ends before it comes
+  // No mistakes:
+  ahead_polls,  ///< a byte of the line is read until it comes
+  ahead_again,  ///< the program has received all, and ends with the engine started again
 };
-constexpr int most = static_cast<int>(Mistake::receive_twice);
+constexpr int most = static_cast<int>(Mistake::ahead_again);
 const hal_option_info options[] = {{"mistake", "", 0, 0, most, "what the program does wrong"},
                                    {"line", "", 0, 0, lines - 1, "in which line of the buffer"}};
 
@@ -132,15 +139,20 @@ void wait_for_packet() {
   while ((hal_read32(dma + axi_dma::S2MM_DMASR) & axi_dma::dmasr::Idle) == 0) continue;
 }
 
-// The first packets of a binary image; the rest of it is dropped.
-void receive(std::uint32_t from, std::uint32_t to) {
+void let_packets_come(bool come) {
   constexpr std::uint32_t ena = 1, rst = 2;
   const std::uint32_t control = drivers::addresses::gpio_control() + axi_gpio::GPIO_DATA;
+  if (come) return hal_write32(control, ena);
   hal_write32(control, 0);
   hal_write32(control, rst);
   hal_write32(control, 0);
+}
+
+// The first packets of a binary image; the rest of it is dropped.
+void receive(std::uint32_t from, std::uint32_t to) {
+  let_packets_come(false);
   arm(from);
-  hal_write32(control, ena);
+  let_packets_come(true);
   wait_for_packet();
   for (std::uint32_t i = from + packet; i < to; i += packet) {
     arm(i);
@@ -204,6 +216,31 @@ int take() {
   return 0;
 }
 
+int take_ahead() {
+  const std::uint32_t from = at / packet * packet;
+  hal_cache_invalidate(buffer, bytes);
+  if (mistake == Mistake::ahead_again) receive(0, bytes);
+  let_packets_come(false);
+  arm(from);
+  switch (mistake) {
+    case Mistake::ahead_all:
+      read(at, from + packet);
+      break;
+    case Mistake::ahead_byte:
+      read(at, at + 1);
+      break;
+    case Mistake::ahead_polls:
+      for (int i = 0; i < 3; ++i) read(at, at + 1);
+      break;
+    default:
+      return 0;
+  }
+  let_packets_come(true);
+  wait_for_packet();
+  hal_cache_invalidate(buffer, bytes);
+  return 0;
+}
+
 int run() {
   mistake = static_cast<Mistake>(static_cast<int>(hal_option(0)));
   at = static_cast<std::uint32_t>(hal_option(1)) * line;
@@ -211,7 +248,8 @@ int run() {
   buffer = static_cast<unsigned char*>(first.data);
   other = static_cast<unsigned char*>(hal_dma_allocate(bytes, line).data);
   bus_address = first.bus_address;
-  return mistake < Mistake::receive ? send_twice() : take();
+  if (mistake < Mistake::receive) return send_twice();
+  return mistake < Mistake::ahead_all ? take() : take_ahead();
 }
 
 }  // namespace

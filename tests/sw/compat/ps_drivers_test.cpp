@@ -6,7 +6,9 @@
 #include <ttc_registers.h>
 #include <xadcps.h>
 #include <xgpiops.h>
+#include <xiicps_hw.h>
 #include <xil_util.h>
+#include <xspips_hw.h>
 #include <xtmrctr.h>
 #include <xttcps.h>
 
@@ -59,6 +61,18 @@ BOOST_AUTO_TEST_CASE(pins_of_all_banks) {
   at(ps_gpio::DATA_0_RO + 4) = 1u << 18;
   BOOST_CHECK_EQUAL(XGpioPs_ReadPin(&gpio, 50), 1u);
   BOOST_CHECK_EQUAL(XGpioPs_ReadPin(&gpio, 51), 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_reset_reaches_every_bank) {
+  XGpioPs_ResetHw(ps_gpio::base);
+  for (std::uint32_t bank = 0; bank < ps_gpio::bank_count; ++bank) {
+    const std::uint32_t registers = ps_gpio::base + bank * ps_gpio::bank_stride;
+    BOOST_CHECK(writes_to(registers + XGPIOPS_DIRM_OFFSET) == Words{0});
+    BOOST_CHECK(writes_to(registers + XGPIOPS_OUTEN_OFFSET) == Words{0});
+    BOOST_CHECK(writes_to(registers + XGPIOPS_INTSTS_OFFSET) == Words{~0u});
+  }
+  BOOST_CHECK(writes_to(ps_gpio::base + ps_gpio::bank_stride + XGPIOPS_INTTYPE_OFFSET) ==
+              Words{0x003F'FFFF});
 }
 
 BOOST_AUTO_TEST_CASE(kinds_of_interrupts) {
@@ -265,6 +279,23 @@ BOOST_AUTO_TEST_CASE(an_over_temperature_of_the_users) {
   BOOST_CHECK_EQUAL(inside[XADCPS_ATR_OT_UPPER_OFFSET], 0xCA30u);
   XAdcPs_EnableUserOverTemp(&adc);
   BOOST_CHECK_EQUAL(inside[XADCPS_ATR_OT_UPPER_OFFSET], 0xCA33u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_FIXTURE_TEST_SUITE(resets, Fixture)
+
+BOOST_AUTO_TEST_CASE(an_i2c_controller_is_off_and_empty) {
+  XIicPs_ResetHw(0xE000'4000);
+  BOOST_CHECK(writes_to(0xE000'4000 + XIICPS_IDR_OFFSET) == Words{XIICPS_IXR_ALL_INTR_MASK});
+  BOOST_CHECK((writes_to(0xE000'4000 + XIICPS_CR_OFFSET) == Words{XIICPS_CR_CLR_FIFO_MASK, 0}));
+  BOOST_CHECK(writes_to(0xE000'4000 + XIICPS_TIME_OUT_OFFSET) == Words{0xFF});
+}
+
+BOOST_AUTO_TEST_CASE(an_spi_controller_selects_no_slave) {
+  XSpiPs_ResetHw(0xE000'6000);
+  BOOST_CHECK(writes_to(0xE000'6000 + XSPIPS_ER_OFFSET) == Words{0});
+  BOOST_CHECK(writes_to(0xE000'6000 + XSPIPS_CR_OFFSET) == Words{0x0002'3C00});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -52,6 +52,11 @@ XBram_Config* XBram_LookupConfig(u16 DeviceId);
 #endif
 int XBram_CfgInitialize(XBram* InstancePtr, XBram_Config* Config, UINTPTR EffectiveAddr);
 int XBram_SelfTest(XBram* InstancePtr, u8 IntMask);
+void XBram_InterruptEnable(XBram* InstancePtr, u32 Mask);
+void XBram_InterruptDisable(XBram* InstancePtr, u32 Mask);
+void XBram_InterruptClear(XBram* InstancePtr, u32 Mask);
+u32 XBram_InterruptGetEnabled(XBram* InstancePtr);
+u32 XBram_InterruptGetStatus(XBram* InstancePtr);
 
 #ifdef __cplusplus
 }

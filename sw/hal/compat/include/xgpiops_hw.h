@@ -36,4 +36,15 @@
 #define XGPIOPS_INTTYPE_BANK2_RESET 0xFFFFFFFFU
 #define XGPIOPS_INTTYPE_BANK3_RESET 0xFFFFFFFFU
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** All registers of all banks as after a reset: no output, no interrupt. */
+void XGpioPs_ResetHw(UINTPTR BaseAddress);
+
+#ifdef __cplusplus
+}
+#endif
+
 #endif

@@ -76,4 +76,15 @@
 #define XIICPS_TIME_OUT_MASK 0x000000FFU
 #define XIICPS_POLL_DEFAULT_TIMEOUT_VAL 1000U
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** All registers as after a reset, the FIFO empty. */
+void XIicPs_ResetHw(UINTPTR BaseAddress);
+
+#ifdef __cplusplus
+}
+#endif
+
 #endif

@@ -17,6 +17,8 @@ extern "C" {
  * a width, and the flags 0 and -. */
 void xil_printf(const char8* ctrl1, ...) __attribute__((format(printf, 1, 2)));
 
+void xil_vprintf(const char8* ctrl1, va_list args);
+
 /** Writes a string as it is. */
 void print(const char8* ptr);
 

@@ -70,4 +70,15 @@
 #define XSPIPS_DR_AFTER_MASK 0x0000FF00U
 #define XSPIPS_DR_INIT_MASK 0x000000FFU
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** All registers as after a reset, the FIFOs empty, no slave selected. */
+void XSpiPs_ResetHw(UINTPTR BaseAddress);
+
+#ifdef __cplusplus
+}
+#endif
+
 #endif
