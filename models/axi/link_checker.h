@@ -28,6 +28,8 @@ class LinkChecker {
 
   /// `in_reset`: the edge samples an active reset.
   void edge(const Wires& wires, bool in_reset);
+  /// An edge without VALID and without reset would show it nothing.
+  bool idle() const { return !was_reset_ && !any_held_; }
   /// At the end of the simulation.
   void finish();
   const vp::RuleReports& reports() const { return reports_; }

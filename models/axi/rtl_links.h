@@ -33,7 +33,7 @@ class RtlLink {
   virtual bool drive() = 0;
   /// The next edge may count, whatever the RTL does.
   virtual bool busy() const = 0;
-  /// Signals follow the outputs of the RTL, once they have settled.
+  /// Signals follow the outputs of the RTL, once they have settled: those that have changed.
   virtual void show_outputs() {}
   /// At the end of the simulation.
   virtual void finish() {}
@@ -77,6 +77,7 @@ class MasterLink final : public RtlLink {
   Wires wires_;
   PinsToTlm adapter_;
   LinkChecker checker_;
+  bool quiet_ = false;  ///< nothing is under way, and the RTL sends nothing
 };
 
 /// The pins of a stream of RTL, whichever way it goes.
@@ -132,11 +133,20 @@ class StreamOutLink final : public RtlLink {
   struct Part {
     Pin pin;
     vp::Signal<std::uint32_t>* wire;
+    std::uint32_t shown;
+  };
+
+  /// What the lowest wires show.
+  struct Shown {
+    bool valid = false, last = false;
+    std::uint8_t keep = 0;
+    std::uint32_t data = 0;
   };
 
   const StreamPins pins_;
   const Pin low_data_, low_keep_;
   const unsigned packet_beats_;
+  Shown shown_;
   std::vector<Part> parts_;
   std::uint64_t whole_word_ = 0;  ///< TKEEP where the RTL has none
   unsigned beat_ = 0;             ///< of a packet, where the RTL has no TLAST
