@@ -65,6 +65,8 @@ class MmPins {
  private:
   struct AddressPins {
     Pin valid, ready, address, id, length, size, burst, lock, cache, prot, qos, region;
+    mutable Address shown;  ///< on the pins, once a request was
+    mutable bool any = false;
   };
   AddressPins address_pins(const std::string& prefix) const;
   Pin pin(const std::string& signal) const;

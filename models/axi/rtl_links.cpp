@@ -183,7 +183,7 @@ void StreamOutLink::connect(const Follow& follow) {
 }
 
 void StreamOutLink::sample(bool) {
-  if (pins_.last || packet_beats_ == 0 || !port_.accepted()) return;
+  if (!port_.accepted()) return;
   beat_ = last() ? 0 : beat_ + 1;
 }
 

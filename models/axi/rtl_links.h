@@ -27,6 +27,8 @@ class RtlLink {
   const std::string name;
   const std::size_t clock;
 
+  /// Whether sample() is to be called.
+  virtual bool samples() const { return true; }
   /// Before an edge of its clock. `in_reset`: that samples an active reset of the RTL.
   virtual void sample(bool in_reset) = 0;
   /// Behind it. True if an input of the RTL has changed.
@@ -120,6 +122,7 @@ class StreamOutLink final : public RtlLink {
   StreamOutLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
                 vp::Clocked& side, unsigned packet_beats);
   vp::AxiStreamMaster& port() { return port_; }
+  bool samples() const override { return !pins_.last && packet_beats_ != 0; }
   void sample(bool in_reset) override;
   bool drive() override { return false; }
   bool busy() const override { return false; }

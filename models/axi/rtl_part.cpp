@@ -328,6 +328,9 @@ void RtlPart::watch_inputs() {
 
 void RtlPart::start_of_simulation() {
   watch_inputs();
+  for (const auto& link : links_) {
+    if (link->samples()) samplers_.push_back(link.get());
+  }
   for (const Input& input : inputs_) input.pin.set(input.signal->bits());
   in_reset_ = in_reset();
   rtl_->evaluate();
@@ -401,7 +404,7 @@ void RtlPart::edge_of(std::size_t clock) {
   }
   edge_ps_ = now;
   const auto rises = [risen](const auto& link) { return (risen >> link->clock & 1) != 0; };
-  for (const auto& link : links_) {
+  for (RtlLink* link : samplers_) {
     if (rises(link)) link->sample(in_reset_);
   }
   for (std::size_t i = 0; i < levels_.size(); ++i) *levels_[i] = risen >> i & 1;

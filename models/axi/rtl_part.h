@@ -155,8 +155,9 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   };
   std::vector<ResetSignal> reset_signals_;
   std::vector<std::unique_ptr<RtlLink>> links_;
-  std::vector<RtlLink*> buses_;    ///< those whose adapters drive inputs
-  std::vector<RtlLink*> streams_;  ///< those whose signals follow outputs
+  std::vector<RtlLink*> buses_;     ///< those whose adapters drive inputs
+  std::vector<RtlLink*> streams_;   ///< those whose signals follow outputs
+  std::vector<RtlLink*> samplers_;  ///< those that look at each edge
   std::deque<Output> outputs_;
   struct Input {
     vp::SignalBase* signal;
