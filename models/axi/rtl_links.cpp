@@ -21,7 +21,7 @@ SlaveLink::SlaveLink(const Interface& interface, std::size_t clock, const pl::Rt
 void SlaveLink::sample(bool in_reset) {
   if (adapter_.idle() && !in_reset && checker_.idle() && !pins_.rtl_sends()) return;
   pins_.read(wires_);
-  checker_.edge(wires_, in_reset);
+  if (watched_) checker_.edge(wires_, in_reset);
   adapter_.sample();
 }
 
@@ -44,7 +44,7 @@ void MasterLink::sample(bool in_reset) {
   quiet_ = quiet_ && !in_reset && checker_.idle() && !pins_.rtl_sends();
   if (quiet_) return;
   pins_.read(wires_);
-  checker_.edge(wires_, in_reset);
+  if (watched_) checker_.edge(wires_, in_reset);
   adapter_.sample();
 }
 

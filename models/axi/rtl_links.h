@@ -35,6 +35,8 @@ class RtlLink {
   virtual bool drive() = 0;
   /// The next edge may count, whatever the RTL does.
   virtual bool busy() const = 0;
+  /// Before the simulation: whether a checker looks at it.
+  virtual void watch(bool /*on*/) {}
   /// Signals follow the outputs of the RTL, once they have settled: those that have changed.
   virtual void show_outputs() {}
   /// At the end of the simulation.
@@ -53,13 +55,17 @@ class SlaveLink final : public RtlLink {
   void sample(bool in_reset) override;
   bool drive() override;
   bool busy() const override { return !adapter_.idle() || driving_; }
-  void finish() override { checker_.finish(); }
+  void watch(bool on) override { watched_ = on; }
+  void finish() override {
+    if (watched_) checker_.finish();
+  }
 
  private:
   const MmPins pins_;
   Wires wires_;
   TlmToPins adapter_;
   LinkChecker checker_;
+  bool watched_ = true;
   bool driving_ = false;
 };
 
@@ -72,13 +78,17 @@ class MasterLink final : public RtlLink {
   void sample(bool in_reset) override;
   bool drive() override;
   bool busy() const override { return !adapter_.idle() || !wires_.quiet(); }
-  void finish() override { checker_.finish(); }
+  void watch(bool on) override { watched_ = on; }
+  void finish() override {
+    if (watched_) checker_.finish();
+  }
 
  private:
   const MmPins pins_;
   Wires wires_;
   PinsToTlm adapter_;
   LinkChecker checker_;
+  bool watched_ = true;
   bool quiet_ = false;  ///< nothing is under way, and the RTL sends nothing
 };
 

@@ -6,6 +6,7 @@
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/report.h>
+#include <vp/rule_reports.h>
 #include <vp/text.h>
 
 namespace axi {
@@ -327,8 +328,10 @@ void RtlPart::watch_inputs() {
 }
 
 void RtlPart::start_of_simulation() {
-  watch_inputs();
+  const bool watched = vp::links_are_watched();
+  if (watched) watch_inputs();
   for (const auto& link : links_) {
+    link->watch(watched);
     if (link->samples()) samplers_.push_back(link.get());
   }
   for (const Input& input : inputs_) input.pin.set(input.signal->bits());

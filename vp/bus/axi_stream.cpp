@@ -6,6 +6,7 @@
 #include <string>
 
 #include <vp/ip.h>
+#include <vp/rule_reports.h>
 #include <vp/stream_checker.h>
 
 namespace vp {
@@ -104,7 +105,7 @@ void AxiStream::pass_singly(StreamFault* fault) {
 }
 
 void AxiStream::start_of_simulation() {
-  if (!master_ || !slave_) return;
+  if (!master_ || !slave_ || !links_are_watched()) return;
   std::vector<StreamChecker::Reset> resets;
   for (const AxiStreamMaster::Reset& reset : master_->resets_) {
     if (SignalBase* signal = reset.signal()) resets.push_back({signal, reset.active_low});

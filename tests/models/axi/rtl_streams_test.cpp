@@ -17,7 +17,9 @@
 #include <pl/common/rtl_object.h>
 #include <vp/axi_stream.h>
 #include <vp/clock_scheduler.h>
+#include <vp/configuration.h>
 #include <vp/report.h>
+#include <vp/rule_reports.h>
 #include <xilinx/axis_buffer/axis_buffer.h>
 
 namespace {
@@ -185,8 +187,10 @@ BOOST_FIXTURE_TEST_CASE(bits_of_tuser_that_would_be_lost_are_refused, Bench) {
 namespace {
 
 /// The rules that RTL breaks, which a receiver lets wait and then takes, and a reset ends.
-std::string broken_by(unsigned fault) {
+std::string broken_by(unsigned fault, const vp::Configuration& configuration = {}) {
+  const vp::Configuration::Scope scope(configuration);
   kit::Simulation simulation;
+  const vp::ProtocolChecks checks("checks");
   std::ostringstream text;
   vp::ReportRouter reports;
   reports.redirect(text);
@@ -230,6 +234,13 @@ BOOST_AUTO_TEST_CASE(each_violation_of_a_stream_at_the_pins_is_seen) {
                                "TVALID_RESET "};
   for (unsigned fault = 0; fault < std::size(rules); ++fault)
     BOOST_TEST(broken_by(fault) == rules[fault]);
+}
+
+BOOST_AUTO_TEST_CASE(links_are_not_watched_where_the_configuration_says_so) {
+  vp::Configuration configuration;
+  configuration.set("checks.watch", "false");
+  for (const unsigned fault : {1u, 4u, 7u}) BOOST_TEST(broken_by(fault, configuration) == "");
+  configuration.check_unused();
 }
 
 // Without a path from an input to an output, an edge is one evaluation: that must be found where it
