@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <regex>
 #include <utility>
 
 #include <axi/interfaces.h>
@@ -112,7 +113,12 @@ proof::Claim claim_of(const std::string& ip, const RtlProveOptions& options) {
   claim.theirs->ghdl_options = options.ghdl_options;
   if (ip.empty()) {
     claim.find_pins = [top = *options.top, &options](const std::vector<proof::Port>& ports) {
-      return pins_of(ports, top, options.interfaces);
+      try {
+        return pins_of(ports, top, options.interfaces);
+      } catch (const vp::InputError& error) {
+        throw vp::InputError(
+            std::regex_replace(error.what(), std::regex("\\bINTERFACES\\b"), "--interface"));
+      }
     };
   }
   return claim;

@@ -87,6 +87,7 @@ BOOST_AUTO_TEST_CASE(links_of_any_rtl_are_proved_to_keep_their_rules) {
   const Arguments links{"--rtl", "own.v", "--top", "own", "--interface", "rst: reset high"};
   write("m_tvalid && m_tready");
   check_refused({"--rtl", "own.v", "--top", "own"}, "own.v:1: reset 'rst'");
+  check_refused({"--rtl", "own.v", "--top", "own"}, "say --interface \"rst: reset high\"");
   check_refused({"--rtl", "own.v", "--top", "own", "--interface", "rst"}, "<port or prefix>");
   kit::Outcome outcome = prove(links);
   BOOST_TEST(outcome.exit_code == 0, outcome.err);

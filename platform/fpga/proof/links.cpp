@@ -53,14 +53,19 @@ std::vector<std::string> assumptions(const Pins& pins) {
   lines.emplace_back(
       "the other end of each link keeps its rules: VALID and what goes with it stay until READY, "
       "and VALID is low in a reset and on the first clock behind it");
-  const bool bus = std::any_of(pins.links.begin(), pins.links.end(), [](const Link& link) {
-    return link.kind != Link::Kind::axi_stream;
-  });
-  if (bus)
+  const auto any = [&pins](Link::Kind kind) {
+    return std::any_of(pins.links.begin(), pins.links.end(),
+                       [kind](const Link& link) { return link.kind == kind; });
+  };
+  if (any(Link::Kind::axi_lite))
     lines.push_back(
-        fmt::format("{} requests of each kind wait for their response at most; "
-                    "subordinates answer what was asked for",
+        fmt::format("AXI4-Lite: {} requests of each kind wait for their response at "
+                    "most, and what is answered was asked for",
                     most_open));
+  if (any(Link::Kind::axi4))
+    lines.emplace_back(
+        "AXI4: the other end has one burst of each direction at a time, INCR and no wider than the "
+        "data, with LAST on its last beat");
   lines.emplace_back("all other inputs are free");
   return lines;
 }
@@ -101,6 +106,8 @@ class LinkRules {
   void look_at(const Channel& channel);
   void look_at_payload(const Channel& channel, const std::string& signal, const std::string& waits);
   void count();
+  void follow_burst(const std::string& request, const std::string& data);
+  bool is_lite() const { return link_.kind == Link::Kind::axi_lite; }
   void count_one(const std::string& name, const std::string& more, const std::string& less);
 
   const Link& link_;
@@ -162,43 +169,75 @@ void LinkRules::count_one(const std::string& name, const std::string& more,
       own(name), more, less);
 }
 
-/// Responses answer requests. Of AXI4 the last beat of a write is not looked at: it has the length
-/// of its burst, which the other end would have to keep.
+/// Responses answer requests.
 void LinkRules::count() {
-  const bool lite = link_.kind == Link::Kind::axi_lite;
-  const std::string most = std::to_string(most_open);
   struct Count {
     const char *name, *request, *response, *rule;
   };
   std::vector<Count> counts;
   if (has("awvalid") && has("bvalid")) {
     counts.push_back({"aw_open", "aw", "b", "BRESP_AW"});
-    if (lite) counts.push_back({"w_open", "w", "b", "BRESP_WLAST"});
+    counts.push_back({"w_open", "w", "b", is_lite() ? "BRESP_WLAST" : ""});
   }
   if (has("arvalid") && has("rvalid")) counts.push_back({"ar_open", "ar", "r", "RID"});
-  for (const Count& c : counts) {
-    const std::string ends = std::string(c.response) == "r" ? " && " + net("rlast") : "";
-    count_one(c.name, own(std::string(c.request) + "_passes"),
-              "(" + own(std::string(c.response) + "_passes") + ends + ")");
-    const std::string response = net(std::string(c.response) + "valid");
-    const std::string none = fmt::format("{} && {} == 0", response, own(c.name));
-    const std::string full =
-        fmt::format("{} && {} == {}", net(std::string(c.request) + "valid"), own(c.name), most);
-    if (link_.slave) {
-      broken("AXI4_ERRS_" + std::string(c.rule), "!reset && " + none);
-      assumed.push_back("!(" + full + ")");
-    } else {
+  for (const auto& [name, request, response, rule] : counts) {
+    const std::string r = response, q = request;
+    count_one(name, own(q + "_passes") + (q == "w" ? " && " + net("wlast") : ""),
+              own(r + "_passes") + (r == "r" ? " && " + net("rlast") : ""));
+    const std::string none = fmt::format("{} && {} == 0", net(r + "valid"), own(name));
+    if (!link_.slave) {
       assumed.push_back("reset || !(" + none + ")");
-      assumed.push_back("!" + own(c.name) + "[3]");
+      assumed.push_back("!" + own(name) + "[3]");
+    } else {
+      if (*rule != 0) broken("AXI4_ERRS_" + std::string(rule), "!reset && " + none);
+      assumed.push_back(fmt::format("!({} && {} == {})", net(q + "valid"), own(name), most_open));
     }
   }
-  if (!lite || !link_.slave) return;
-  for (const char* response : {"bresp", "rresp"}) {
-    if (has(response))
-      broken("AXI4_ERRS_" + upper(response) + "_EXOKAY",
-             fmt::format("!reset && {} && {} == 1", net(std::string(1, *response) + "valid"),
-                         net(response)));
+  if (!is_lite()) {
+    if (has("awvalid")) follow_burst("aw", "w");
+    if (has("arvalid")) follow_burst("ar", "r");
+    return;
   }
+  for (const char* response : {"bresp", "rresp"}) {
+    if (!has(response)) continue;
+    const std::string exokay =
+        fmt::format("{} && {} == 1", net(std::string(1, *response) + "valid"), net(response));
+    if (link_.slave)
+      broken("AXI4_ERRS_" + upper(response) + "_EXOKAY", "!reset && " + exokay);
+    else
+      assumed.push_back("!(" + exokay + ")");
+  }
+}
+
+/// The other end sends and takes one burst of AXI4 at a time, whose LAST it sets where it belongs.
+void LinkRules::follow_burst(const std::string& request, const std::string& data) {
+  const std::string left = own(data + "_left"), passes = own(request + "_passes");
+  const std::string length = has(request + "len") ? net(request + "len") : "8'd0";
+  verilog += fmt::format(
+      "reg [8:0] {0} = 0;\nalways @(posedge clk) if (reset) {0} <= 0; else if ({1}) {0} <= {2} + "
+      "1; "
+      "else if ({3} && {0} != 0) {0} <= {0} - 1;\n",
+      left, passes, length, own(data + "_passes"));
+  const bool sends = (data == "w") == link_.slave;  // the other end sends the data
+  if (sends) {
+    assumed.push_back(fmt::format("!{} || {} != 0", net(data + "valid"), left));
+    if (has(data + "last"))
+      assumed.push_back(
+          fmt::format("!{} || {} == ({} == 1)", net(data + "valid"), net(data + "last"), left));
+  }
+  const std::string open = own(request + "_open");
+  if (!has(data == "w" ? "bvalid" : "rvalid")) return;
+  if (!link_.slave) {
+    assumed.push_back(fmt::format("!{} || {} == 0", net(request + "ready"), open));
+    return;
+  }
+  assumed.push_back(fmt::format("!{} || ({} == 0 && {} == 0)", net(request + "valid"), open, left));
+  if (has(request + "burst"))
+    assumed.push_back(
+        fmt::format("!{} || {} == 1", net(request + "valid"), net(request + "burst")));
+  if (has(request + "size"))
+    assumed.push_back(fmt::format("!{} || 8 << {} <= {}", net(request + "valid"),
+                                  net(request + "size"), port(data + "data").bits));
 }
 
 // Inputs have names of their own: a port may be called `reset` or `bad`.
