@@ -107,15 +107,20 @@ void LinkChecker::check_reset(const Wires& wires, bool in_reset) {
 // has changed.
 template <class Channel, class Changes>
 void LinkChecker::check_stable(Channel& held, const Channel& now, Rule fell, Changes changes) {
+  const bool waits = now.valid && !now.ready;
+  if (!held.valid && !waits) return;
+  bool same = held.valid && now.valid;
   if (held.valid && !now.valid) {
     broken(fell, "it fell without READY");
   } else if (held.valid) {
     for (const auto& [rule, changed] : changes(held, now)) {
-      if (changed) broken(rule, "it changed without READY");
+      if (!changed) continue;
+      broken(rule, "it changed without READY");
+      same = false;
     }
   }
-  held.valid = now.valid && !now.ready;
-  if (held.valid) held = now;
+  if (waits && !same) held = now;
+  held.valid = waits;
 }
 
 void LinkChecker::check_stable(const Wires& wires) {
@@ -202,9 +207,9 @@ void LinkChecker::check_write_beat(const WriteChannel& beat) {
     return;
   }
   const Address& a = open->address;
-  if (open->beats < a.beats && a.beat_bytes() <= shape_.data_bytes) {
+  if (!shape_.lite && open->beats < a.beats && a.bytes_in(open->beats) < shape_.data_bytes) {
     const Strobes others = bus_lanes_ & ~lanes_of(a, open->beats, shape_.data_bytes);
-    if (!shape_.lite && (beat.strobes & others).any())
+    if ((beat.strobes & others).any())
       broken(Rule::w_strb, "beat " + std::to_string(open->beats) + " of " + text_of(a));
   }
   ++open->beats;

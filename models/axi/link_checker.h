@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <string>
 
+#include <axi/queue.h>
 #include <axi/wires.h>
 #include <vp/clock.h>
 #include <vp/rule_reports.h>
@@ -63,9 +63,9 @@ class LinkChecker {
   bool any_held_ = false;  ///< one of them did
   bool was_reset_ = false;
   bool early_response_ = false, early_data_ = false;  ///< passed before their request
-  std::deque<Open> writes_, reads_;                   ///< oldest first
-  std::deque<unsigned> early_;  ///< beats of write bursts that came before their address
-  unsigned early_beats_ = 0;    ///< of the one that is not complete
+  Queue<Open> writes_, reads_;                        ///< oldest first
+  Queue<unsigned> early_;     ///< beats of write bursts that came before their address
+  unsigned early_beats_ = 0;  ///< of the one that is not complete
 };
 
 }  // namespace axi
