@@ -15,7 +15,8 @@ namespace axi {
 /// costs a look at five of them.
 class LinkChecker {
  public:
-  /// Which side the reset belongs to: its VALIDs are low meanwhile.
+  /// Which side is not an adapter of ours: the reset belongs to it, and what it sends is looked at
+  /// while it waits. Adapters keep what they send, as their tests show.
   enum class Resets { manager, subordinate, both };
 
   LinkChecker(const sc_core::sc_object& link, const vp::Clock& clock, const Shape& shape,
@@ -44,6 +45,7 @@ class LinkChecker {
 
   void check_reset(const Wires& wires, bool in_reset);
   void check_stable(const Wires& wires);
+  void check_requests_stable(const Wires& wires);
   template <class Channel, class Changes>
   void check_stable(Channel& held, const Channel& now, vp::Rule fell, Changes changes);
   void check_response(const Wires& wires, bool is_new);
