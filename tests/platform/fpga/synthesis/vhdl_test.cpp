@@ -222,6 +222,23 @@ BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_line_and_what_to_do) {
   check_says(refusal("own"), {"own.vhd:1:", "add the sources of the library 'unisim'", "vendor's"});
 }
 
+BOOST_AUTO_TEST_CASE(options_reach_ghdl) {
+  write("counter.vhd", counter);
+  Design own = design("Counter");
+  own.ghdl_options = {"--no-such-option"};
+  std::string refused;
+  try {
+    synthesise(own, timing);
+  } catch (const vp::InputError& error) {
+    refused = error.what();
+  }
+  check_says(refused, {"no-such-option"});
+  own.ghdl_options = {"-fexplicit"};
+  BOOST_TEST(synthesise(own, timing).netlist.cells.ff == 8u);
+  own.ghdl_options = {"a;b"};
+  BOOST_CHECK_THROW(synthesise(own, timing), vp::InputError);
+}
+
 BOOST_AUTO_TEST_CASE(a_top_that_is_not_there_or_twice_is_refused) {
   write("counter.vhd", counter);
   check_says(refusal("conter"), {"no module or entity 'conter'", "name Counter"});
