@@ -65,10 +65,16 @@ void PinsToTlm::sample() {
   call_targets();
 }
 
+/// AXI4-Lite moves whole words, whatever the lowest bits of the address are (IHI0022 B1.1).
+Address PinsToTlm::whole(Address request) const {
+  if (shape_.lite) request.address &= ~std::uint64_t{shape_.data_bytes - 1};
+  return request;
+}
+
 void PinsToTlm::sample_requests(std::uint64_t cycle) {
   if (wires_.aw.passes()) {
     ++bursts;
-    requests_.emplace_back(wires_.aw.beat);
+    requests_.emplace_back(whole(wires_.aw.beat));
     requests_.back().begins = std::max(cycle, write.path().write_free);
   }
   if (wires_.w.passes()) {
@@ -80,7 +86,7 @@ void PinsToTlm::sample_requests(std::uint64_t cycle) {
   }
   if (!wires_.ar.passes()) return;
   ++bursts;
-  Burst& burst = reads_.emplace_back(wires_.ar.beat);
+  Burst& burst = reads_.emplace_back(whole(wires_.ar.beat));
   std::uint64_t& bus_free = read.path().read_free;
   burst.begins = std::max(cycle + read_latency, bus_free);
   bus_free = burst.begins + burst.address.beats;

@@ -92,6 +92,7 @@ class PinsToTlm final : public sc_core::sc_module {
     Response response_of(unsigned beat) const;
   };
 
+  Address whole(Address request) const;
   void sample_requests(std::uint64_t cycle);
   void take_write_beats(std::uint64_t cycle);
   void take(const WriteBeat& beat, std::uint64_t cycle);
