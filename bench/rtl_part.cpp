@@ -1,6 +1,7 @@
 // What RTL on AXI costs as a part of a design, against the same RTL alone in Verilator on the same
-// pins: bench_rtl_part FILE.so [CLOCKS]. Its slaves get bursts without pause, its streams words,
-// its masters memory. The best of five runs of each.
+// pins: bench_rtl_part FILE.so [CLOCKS] [ADDRESS=VALUE…]. Its streams get words, its masters
+// memory, and its slaves bursts without pause, or the words of these registers, once. The best of
+// five runs of each.
 #include <bus_master.h>
 #include <memory_target.h>
 #include <simulation.h>
@@ -14,18 +15,24 @@
 #include <ctime>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <axi/rtl_part.h>
 #include <vp/axi_stream.h>
 #include <vp/clock_scheduler.h>
+#include <vp/configuration.h>
 #include <vp/router.h>
+#include <vp/rule_reports.h>
 
 #include "rtl/recorder.h"
 
 namespace {
 
 constexpr unsigned rounds = 5;
+
+/// What software writes once, in this order.
+using Registers = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// Of the processor: others may work beside.
 template <class Action>
@@ -35,17 +42,24 @@ double seconds(Action action) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Sends words without pause.
+/// Sends words without pause, in packets of 64; TUSER, where the receiver has it, marks the first.
 class Source final : public vp::Clocked {
  public:
-  Source(sc_core::sc_module_name name, vp::Clock& clock) : Clocked(name, clock) {
-    m.set_shape({this->name(), 0});
+  Source(sc_core::sc_module_name name, vp::Clock& clock, unsigned user_bits)
+      : Clocked(name, clock) {
+    m.set_shape({this->name(), 0, 0, user_bits});
   }
   vp::AxiStreamMaster m{"m", *this};
 
  private:
+  void end_of_elaboration() override {
+    Clocked::end_of_elaboration();
+    for (auto& part : m.link().parts())
+      if (part.part.field == vp::StreamField::user && part.part.low == 0) user_ = &part.wire;
+  }
   void edge() override {
     if (!m.free()) return;
+    if (user_) *user_ = word_ % 64 == 0;
     const bool last = ++word_ % 64 == 0;
     if (m.link().bytes() <= sizeof word_)
       return m.offer(word_, last, static_cast<std::uint8_t>((1u << m.link().bytes()) - 1));
@@ -55,6 +69,7 @@ class Source final : public vp::Clocked {
     m.offer(beat, last);
   }
   std::uint32_t word_ = 0;
+  vp::Signal<std::uint32_t>* user_ = nullptr;
 };
 
 class Sink final : public vp::Clocked {
@@ -73,7 +88,15 @@ class Sink final : public vp::Clocked {
 
 /// The part with something at each of its interfaces.
 struct System : kit::Simulation {
-  explicit System(const std::string& file) : part("part", file, clocks(file)) {
+  /// Of the checkers of links, which one switch turns off.
+  struct Switch {
+    explicit Switch(bool watch) { configuration.set("checks.watch", watch ? "true" : "false"); }
+    vp::Configuration configuration;
+    vp::Configuration::Scope scope{configuration};
+  };
+
+  explicit System(const std::string& file, bool watch = true)
+      : watching(watch), part("part", file, clocks(file)) {
     scheduler.set_batch(true);  // both as the platform does
     scheduler.set_lookahead(10'000'000);
     memory_bus.map("memory", 0, 0x10'0000).bind(memory.socket);
@@ -85,6 +108,10 @@ struct System : kit::Simulation {
     for (const axi::Interface& one : axi::find_interfaces(pl::open_rtl(file)))
       if (one.kind == axi::Kind::clock) pins.emplace_back(one.name, &clock);
     return pins;
+  }
+  unsigned user_bits(const axi::Interface& stream) const {
+    const auto found = stream.ports.find("tuser");
+    return found == stream.ports.end() ? 0 : pl::open_rtl(part.file()).ports[found->second].bits;
   }
   void connect(const axi::Interface& one) {
     const bool bus = one.kind == axi::Kind::axi4 || one.kind == axi::Kind::axi_lite;
@@ -101,7 +128,8 @@ struct System : kit::Simulation {
       auto& link =
           *links.emplace_back(std::make_unique<vp::AxiStream>((one.name + "_link").c_str()));
       if (one.slave) {
-        sources.push_back(std::make_unique<Source>((one.name + "_source").c_str(), clock));
+        sources.push_back(
+            std::make_unique<Source>((one.name + "_source").c_str(), clock, user_bits(one)));
         sources.back()->m(link);
         part.stream_in(one.name)(link);
       } else {
@@ -113,13 +141,15 @@ struct System : kit::Simulation {
       part.tie(one.name, 0);
     }
   }
-  void run(std::uint64_t clock_count) {
+  void run(std::uint64_t clock_count, const Registers& registers) {
     const std::uint64_t end = clock_count * 10'000;
     if (!has_slave) {
       software.socket.bind(memory_bus.socket);
       return sc_core::sc_start(sc_core::sc_time::from_value(end));
     }
     software.simulate([&] {
+      for (const auto& [address, value] : registers) software.write(address, value);
+      if (!registers.empty()) return scheduler.pass_until(end);
       unsigned char bytes[64] = {};
       for (unsigned i = 0; scheduler.now_ps() < end; ++i) {
         const bool read = i % 2 != 0;
@@ -131,6 +161,8 @@ struct System : kit::Simulation {
     });
   }
 
+  Switch watching;
+  vp::ProtocolChecks checks{"checks"};
   vp::ClockScheduler scheduler{"scheduler"};
   vp::Clock clock{"clock", scheduler, 100'000'000};
   vp::Router memory_bus{"memory_bus"};
@@ -169,7 +201,8 @@ double alone(const bench::Recording& recording) {
   const double time = seconds([&] {
     std::size_t at = 0;
     for (const std::size_t end : ends) {
-      for (; at < end; ++at) std::memcpy(changes[at].place, changes[at].from, changes[at].bytes);
+      for (; at < end; ++at)
+        axi::copy_bytes(changes[at].place, changes[at].from, changes[at].bytes);
       recording.rtl->eval(model);
     }
   });
@@ -186,22 +219,33 @@ extern "C" int sc_main(int, char**) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "bench_rtl_part FILE.so [CLOCKS]\n");
+    std::fprintf(stderr, "bench_rtl_part FILE.so [CLOCKS] [ADDRESS=VALUE...]\n");
     return 2;
   }
   const std::uint64_t clocks = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 200'000;
+  Registers registers;
+  for (int i = 3; i < argc; ++i) {
+    char* value = nullptr;
+    const unsigned long address = std::strtoul(argv[i], &value, 0);
+    if (*value == '=') registers.emplace_back(address, std::strtoul(value + 1, nullptr, 0));
+  }
+  sc_core::sc_report_handler::set_actions(sc_core::SC_WARNING, sc_core::SC_DO_NOTHING);
   sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
-  double in_system = 1e9, by_itself = 1e9;
+  double in_system = 1e9, unwatched = 1e9, by_itself = 1e9;
   std::uint64_t edges = 0;
   for (unsigned i = 0; i < rounds; ++i) {
     System system(argv[1]);
-    in_system = std::min(in_system, seconds([&] { system.run(clocks); }));
+    in_system = std::min(in_system, seconds([&] { system.run(clocks, registers); }));
     edges = system.clock.edges_run();
+  }
+  for (unsigned i = 0; i < rounds; ++i) {
+    System system(argv[1], false);
+    unwatched = std::min(unwatched, seconds([&] { system.run(clocks, registers); }));
   }
   ::setenv("BENCH_RTL", argv[1], 1);
   {
     System system(BENCH_RECORDER);
-    system.run(clocks);
+    system.run(clocks, registers);
   }
   void* recorder = ::dlopen(BENCH_RECORDER, RTLD_NOW | RTLD_LOCAL);
   const auto recording =
@@ -209,9 +253,11 @@ int main(int argc, char** argv) {
   for (unsigned i = 0; i < rounds; ++i) by_itself = std::min(by_itself, alone(*recording));
   const double nanoseconds = 1e9 / static_cast<double>(clocks);
   std::printf(
-      "%s: %.1f ns a clock, %.1f ns alone, %.2f x; %llu of %llu edges, %.2f evaluations each\n",
+      "%s: %.1f ns a clock, %.1f ns alone, %.2f x; checkers take %.1f %%; %llu of %llu edges, %.2f "
+      "evaluations each\n",
       argv[1], in_system * nanoseconds, by_itself * nanoseconds, in_system / by_itself,
-      static_cast<unsigned long long>(edges), static_cast<unsigned long long>(clocks),
+      (in_system / unwatched - 1) * 100, static_cast<unsigned long long>(edges),
+      static_cast<unsigned long long>(clocks),
       static_cast<double>(recording->evaluations) / static_cast<double>(clocks));
   return 0;
 }

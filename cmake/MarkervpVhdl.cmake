@@ -38,13 +38,30 @@ function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS OPTIONS)
   file(READ "${FILE}.vhdl" vhdl)
   markervp_vhdl_escape_keywords(text)
   markervp_vhdl_restore_defaults(${NAME} "${vhdl}" text)
-  # Values without bits, of what was left out.
-  string(REGEX REPLACE "  localparam [A-Za-z0-9_]+ = 0'b[01XZ]*;\n" "" text "${text}")
+  markervp_vhdl_drop_values_without_bits(text)
   # Assertions stop in reset like those of SystemVerilog, and say where they are in the VHDL.
   string(REGEX REPLACE "/\\* ([^ ]+) +\\*/\n  always @\\*\n    if \\(!([a-z0-9_]+)\\)\n      \\$fatal\\(1, \"[^\"]*\"\\);"
     "always @* assert (\\2) else $error(\"VHDL assertion at \\1\");" text "${text}")
   # The types of VHDL have seen to widths; GHDL writes initial values and multiplexers with delayed assignments.
   file(WRITE "${FILE}" "/* verilator lint_off WIDTH */\n/* verilator lint_off INITIALDLY */\n/* verilator lint_off COMBDLY */\n${text}")
+endfunction()
+
+# Values without bits are of what was left out, or drive ports that a generic made so narrow: those GHDL declares with one bit, which is 0.
+function(markervp_vhdl_drop_values_without_bits TEXT)
+  set(text "${${TEXT}}")
+  string(REGEX MATCHALL "localparam [A-Za-z0-9_]+ = 0'b" values "${text}")
+  string(REGEX REPLACE "  localparam [A-Za-z0-9_]+ = 0'b[01XZ]*;\n" "" text "${text}")
+  list(TRANSFORM values REPLACE "localparam ([A-Za-z0-9_]+) .*" "\\1")
+  foreach(value IN LISTS values)
+    if(NOT text MATCHES "[^A-Za-z0-9_]${value}[^A-Za-z0-9_]")
+      continue()
+    endif()
+    string(REGEX REPLACE "(assign [A-Za-z0-9_]+ = )${value};" "\\11'b0;" text "${text}")
+    if(text MATCHES "[^A-Za-z0-9_]${value}[^A-Za-z0-9_]")
+      markervp_vhdl_refuse("" "GHDL uses a value without bits, '${value}', in what it makes of '${TOP}': give generics with which all its signals have bits")
+    endif()
+  endforeach()
+  set(${TEXT} "${text}" PARENT_SCOPE)
 endfunction()
 
 # Writes what GHDL makes of the sources into ${FILE}.verilog and ${FILE}.vhdl.

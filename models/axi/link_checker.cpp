@@ -63,12 +63,12 @@ void LinkChecker::edge(const Wires& wires, bool in_reset) {
   if (wires.b.valid) check_response(wires, new_response);
   if (wires.r.valid) check_read_data(wires, new_data);
   if (wires.aw.passes()) {
-    check_request(wires.aw.beat, false);
+    if (!shape_.lite) check_request(wires.aw.beat, false);
     writes_.push_back({wires.aw.beat});
     match_data();
   }
   if (wires.ar.passes()) {
-    check_request(wires.ar.beat, true);
+    if (!shape_.lite) check_request(wires.ar.beat, true);
     reads_.push_back({wires.ar.beat});
   }
   if (wires.w.passes()) check_write_beat(wires.w);
@@ -107,34 +107,34 @@ void LinkChecker::check_reset(const Wires& wires, bool in_reset) {
 // has changed.
 template <class Channel, class Changes>
 void LinkChecker::check_stable(Channel& held, const Channel& now, Rule fell, Changes changes) {
+  const bool waits = now.valid && !now.ready;
+  if (!held.valid && !waits) return;
+  bool same = held.valid && now.valid;
   if (held.valid && !now.valid) {
     broken(fell, "it fell without READY");
   } else if (held.valid) {
     for (const auto& [rule, changed] : changes(held, now)) {
-      if (changed) broken(rule, "it changed without READY");
+      if (!changed) continue;
+      broken(rule, "it changed without READY");
+      same = false;
     }
   }
-  held.valid = now.valid && !now.ready;
-  if (held.valid) held = now;
+  if (waits && !same) held = now;
+  held.valid = waits;
 }
 
 void LinkChecker::check_stable(const Wires& wires) {
   const auto waits = [](const Handshake& channel) { return channel.valid && !channel.ready; };
-  const bool any_waits =
-      waits(wires.aw) || waits(wires.ar) || waits(wires.w) || waits(wires.b) || waits(wires.r);
+  const bool manager = resets_ != Resets::subordinate, subordinate = resets_ != Resets::manager;
+  const bool any_waits = (manager && (waits(wires.aw) || waits(wires.ar) || waits(wires.w))) ||
+                         (subordinate && (waits(wires.b) || waits(wires.r)));
   if (!std::exchange(any_held_, any_waits) && !any_waits) return;
+  if (manager) check_requests_stable(wires);
+  if (!subordinate) return;
   const unsigned bytes = shape_.data_bytes;
   const auto other_data = [bytes](const auto& a, const auto& b) {
     return !std::equal(a.data.begin(), a.data.begin() + bytes, b.data.begin());
   };
-  check_stable(held_.aw, wires.aw, Rule::aw_valid_stable, request_changes<Rule::aw_addr_boundary>);
-  check_stable(held_.ar, wires.ar, Rule::ar_valid_stable, request_changes<Rule::ar_addr_boundary>);
-  check_stable(held_.w, wires.w, Rule::w_valid_stable,
-               [&](const WriteChannel& a, const WriteChannel& b) {
-                 return std::array{std::pair{Rule::w_data_stable, written_differ(a, b, bytes)},
-                                   std::pair{Rule::w_strb_stable, a.strobes != b.strobes},
-                                   std::pair{Rule::w_last_stable, a.last != b.last}};
-               });
   check_stable(held_.b, wires.b, Rule::b_valid_stable,
                [](const ResponseChannel& a, const ResponseChannel& b) {
                  return std::array{std::pair{Rule::b_id_stable, a.id != b.id},
@@ -149,6 +149,19 @@ void LinkChecker::check_stable(const Wires& wires) {
                });
 }
 
+void LinkChecker::check_requests_stable(const Wires& wires) {
+  const unsigned bytes = shape_.data_bytes;
+  check_stable(held_.aw, wires.aw, Rule::aw_valid_stable, request_changes<Rule::aw_addr_boundary>);
+  check_stable(held_.ar, wires.ar, Rule::ar_valid_stable, request_changes<Rule::ar_addr_boundary>);
+  check_stable(held_.w, wires.w, Rule::w_valid_stable,
+               [&](const WriteChannel& a, const WriteChannel& b) {
+                 return std::array{std::pair{Rule::w_data_stable, written_differ(a, b, bytes)},
+                                   std::pair{Rule::w_strb_stable, a.strobes != b.strobes},
+                                   std::pair{Rule::w_last_stable, a.last != b.last}};
+               });
+}
+
+// Of AXI4-Lite all of this is so by itself: one whole word.
 void LinkChecker::check_request(const Address& a, bool read) {
   const auto report = [&](Rule of_aw) { broken(read ? vp::on_ar(of_aw) : of_aw, text_of(a)); };
   const std::uint64_t bytes = std::uint64_t{a.beats} * a.beat_bytes();
@@ -202,9 +215,9 @@ void LinkChecker::check_write_beat(const WriteChannel& beat) {
     return;
   }
   const Address& a = open->address;
-  if (open->beats < a.beats && a.beat_bytes() <= shape_.data_bytes) {
+  if (!shape_.lite && open->beats < a.beats && a.bytes_in(open->beats) < shape_.data_bytes) {
     const Strobes others = bus_lanes_ & ~lanes_of(a, open->beats, shape_.data_bytes);
-    if (!shape_.lite && (beat.strobes & others).any())
+    if ((beat.strobes & others).any())
       broken(Rule::w_strb, "beat " + std::to_string(open->beats) + " of " + text_of(a));
   }
   ++open->beats;

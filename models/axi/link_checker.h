@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <string>
 
+#include <axi/queue.h>
 #include <axi/wires.h>
 #include <vp/clock.h>
 #include <vp/rule_reports.h>
@@ -15,7 +15,8 @@ namespace axi {
 /// costs a look at five of them.
 class LinkChecker {
  public:
-  /// Which side the reset belongs to: its VALIDs are low meanwhile.
+  /// Which side is not an adapter of ours: the reset belongs to it, and what it sends is looked at
+  /// while it waits. Adapters keep what they send, as their tests show.
   enum class Resets { manager, subordinate, both };
 
   LinkChecker(const sc_core::sc_object& link, const vp::Clock& clock, const Shape& shape,
@@ -28,6 +29,8 @@ class LinkChecker {
 
   /// `in_reset`: the edge samples an active reset.
   void edge(const Wires& wires, bool in_reset);
+  /// An edge without VALID and without reset would show it nothing.
+  bool idle() const { return !was_reset_ && !any_held_; }
   /// At the end of the simulation.
   void finish();
   const vp::RuleReports& reports() const { return reports_; }
@@ -42,6 +45,7 @@ class LinkChecker {
 
   void check_reset(const Wires& wires, bool in_reset);
   void check_stable(const Wires& wires);
+  void check_requests_stable(const Wires& wires);
   template <class Channel, class Changes>
   void check_stable(Channel& held, const Channel& now, vp::Rule fell, Changes changes);
   void check_response(const Wires& wires, bool is_new);
@@ -61,9 +65,9 @@ class LinkChecker {
   bool any_held_ = false;  ///< one of them did
   bool was_reset_ = false;
   bool early_response_ = false, early_data_ = false;  ///< passed before their request
-  std::deque<Open> writes_, reads_;                   ///< oldest first
-  std::deque<unsigned> early_;  ///< beats of write bursts that came before their address
-  unsigned early_beats_ = 0;    ///< of the one that is not complete
+  Queue<Open> writes_, reads_;                        ///< oldest first
+  Queue<unsigned> early_;     ///< beats of write bursts that came before their address
+  unsigned early_beats_ = 0;  ///< of the one that is not complete
 };
 
 }  // namespace axi

@@ -38,8 +38,8 @@ Pin MmPins::pin(const std::string& signal) const {
 
 MmPins::AddressPins MmPins::address_pins(const std::string& prefix) const {
   const auto of = [&](const char* signal) { return pin(prefix + signal); };
-  return {of("valid"), of("ready"), of("addr"),  of("id"),   of("len"), of("size"),
-          of("burst"), of("lock"),  of("cache"), of("prot"), of("qos"), of("region")};
+  return {of("valid"), of("ready"), of("addr"), of("id"),  of("len"),    of("size"), of("burst"),
+          of("lock"),  of("cache"), of("prot"), of("qos"), of("region"), {},         false};
 }
 
 void MmPins::refuse(const std::string& signal, const std::string& why) const {
@@ -97,6 +97,8 @@ void MmPins::write_address(const AddressPins& pins, const AddressChannel& channe
   pins.valid.set(channel.valid);
   if (!channel.valid) return;
   const Address& a = channel.beat;
+  if (std::exchange(pins.any, true) && pins.shown == a) return;
+  pins.shown = a;
   pins.address.set(a.address);
   pins.id.set(a.id);
   pins.length.set(a.beats - 1);

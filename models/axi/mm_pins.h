@@ -52,6 +52,11 @@ class MmPins {
   MmPins(const Interface& interface, const pl::RtlObject& rtl);
 
   const Shape& shape() const { return shape_; }
+  /// One of its VALIDs is high.
+  bool rtl_sends() const {
+    if (interface_.slave) return (bvalid_.get() | rvalid_.get()) != 0;
+    return (aw_.valid.get() | ar_.valid.get() | wvalid_.get()) != 0;
+  }
   /// Takes what the RTL drives. What it leaves out has the defaults of PG059 and PG247.
   void read(Wires& wires) const;
   /// Shows it what it samples.
@@ -60,6 +65,8 @@ class MmPins {
  private:
   struct AddressPins {
     Pin valid, ready, address, id, length, size, burst, lock, cache, prot, qos, region;
+    mutable Address shown;  ///< on the pins, once a request was
+    mutable bool any = false;
   };
   AddressPins address_pins(const std::string& prefix) const;
   Pin pin(const std::string& signal) const;

@@ -65,19 +65,28 @@ void PinsToTlm::sample() {
   call_targets();
 }
 
+/// AXI4-Lite moves whole words, whatever the lowest bits of the address are (IHI0022 B1.1).
+Address PinsToTlm::whole(Address request) const {
+  if (shape_.lite) request.address &= ~std::uint64_t{shape_.data_bytes - 1};
+  return request;
+}
+
 void PinsToTlm::sample_requests(std::uint64_t cycle) {
   if (wires_.aw.passes()) {
     ++bursts;
-    requests_.emplace_back(wires_.aw.beat);
+    requests_.emplace_back(whole(wires_.aw.beat));
     requests_.back().begins = std::max(cycle, write.path().write_free);
   }
   if (wires_.w.passes()) {
     ++beats;
-    early_.push_back({wires_.w.data, wires_.w.strobes});
+    if (early_.empty() && !requests_.empty())
+      take({wires_.w.data, wires_.w.strobes}, cycle);
+    else
+      early_.push_back({wires_.w.data, wires_.w.strobes});
   }
   if (!wires_.ar.passes()) return;
   ++bursts;
-  Burst& burst = reads_.emplace_back(wires_.ar.beat);
+  Burst& burst = reads_.emplace_back(whole(wires_.ar.beat));
   std::uint64_t& bus_free = read.path().read_free;
   burst.begins = std::max(cycle + read_latency, bus_free);
   bus_free = burst.begins + burst.address.beats;
@@ -85,25 +94,30 @@ void PinsToTlm::sample_requests(std::uint64_t cycle) {
 
 void PinsToTlm::take_write_beats(std::uint64_t cycle) {
   while (!requests_.empty() && !early_.empty()) {
-    Burst& burst = requests_.front();
-    take(burst, early_.front());
+    take(early_.front(), cycle);
     early_.pop_front();
-    if (++burst.beat != burst.address.beats) continue;
-    const std::uint64_t last = std::max(cycle, burst.begins + burst.address.beats - 1);
-    std::uint64_t& bus_free = write.path().write_free;
-    bus_free = std::max(bus_free, last + 1);
-    burst.ready = last + write_latency;
-    writes_.push_back(std::move(burst));
-    requests_.pop_front();
   }
 }
 
-void PinsToTlm::take(Burst& burst, const WriteBeat& beat) const {
+/// The next beat of the oldest write.
+void PinsToTlm::take(const WriteBeat& beat, std::uint64_t cycle) {
+  Burst& burst = requests_.front();
+  copy(burst, beat);
+  if (++burst.beat != burst.address.beats) return;
+  const std::uint64_t last = std::max(cycle, burst.begins + burst.address.beats - 1);
+  std::uint64_t& bus_free = write.path().write_free;
+  bus_free = std::max(bus_free, last + 1);
+  burst.ready = last + write_latency;
+  writes_.push_back(std::move(burst));
+  requests_.pop_front();
+}
+
+void PinsToTlm::copy(Burst& burst, const WriteBeat& beat) const {
   const unsigned offset = burst.address.offset(burst.beat);
   const unsigned bytes = burst.address.bytes_in(burst.beat);
   const auto lane =
-      static_cast<unsigned>(burst.address.beat_address(burst.beat) % shape_.data_bytes);
-  std::memcpy(&burst.data[offset], &beat.data[lane], bytes);
+      static_cast<unsigned>(burst.address.beat_address(burst.beat) & (shape_.data_bytes - 1));
+  copy_bytes(&burst.data[offset], &beat.data[lane], bytes);
   for (unsigned i = 0; i < bytes; ++i) {
     if (beat.strobes[lane + i]) continue;
     if (burst.enables.empty()) burst.enables.assign(burst.data.size(), TLM_BYTE_ENABLED);
@@ -160,11 +174,12 @@ void PinsToTlm::drive_read(std::uint64_t next) {
   wires_.r.id = burst.address.id;
   wires_.r.response = burst.response_of(burst.beat);
   wires_.r.last = burst.beat + 1 == burst.address.beats;
-  std::fill_n(wires_.r.data.begin(), shape_.data_bytes, static_cast<unsigned char>(0));
+  if (burst.address.bytes_in(burst.beat) != shape_.data_bytes)
+    std::fill_n(wires_.r.data.begin(), shape_.data_bytes, static_cast<unsigned char>(0));
   const auto lane =
-      static_cast<unsigned>(burst.address.beat_address(burst.beat) % shape_.data_bytes);
-  std::memcpy(&wires_.r.data[lane], &burst.data[burst.address.offset(burst.beat)],
-              burst.address.bytes_in(burst.beat));
+      static_cast<unsigned>(burst.address.beat_address(burst.beat) & (shape_.data_bytes - 1));
+  copy_bytes(&wires_.r.data[lane], &burst.data[burst.address.offset(burst.beat)],
+             burst.address.bytes_in(burst.beat));
 }
 
 }  // namespace axi

@@ -6,6 +6,7 @@
 #include <tlm>
 #include <vector>
 
+#include <axi/queue.h>
 #include <axi/wires.h>
 #include <vp/clock.h>
 #include <vp/counter.h>
@@ -91,9 +92,11 @@ class PinsToTlm final : public sc_core::sc_module {
     Response response_of(unsigned beat) const;
   };
 
+  Address whole(Address request) const;
   void sample_requests(std::uint64_t cycle);
   void take_write_beats(std::uint64_t cycle);
-  void take(Burst& burst, const WriteBeat& beat) const;
+  void take(const WriteBeat& beat, std::uint64_t cycle);
+  void copy(Burst& burst, const WriteBeat& beat) const;
   void call_targets();
   void call(std::deque<Burst>& bursts, xilinx::MemoryPort& port, tlm::tlm_command command);
   void drive_read(std::uint64_t cycle);
@@ -102,8 +105,8 @@ class PinsToTlm final : public sc_core::sc_module {
   const Shape shape_;
   Wires& wires_;
 
-  std::deque<Burst> requests_;   ///< writes whose data are not complete
-  std::deque<WriteBeat> early_;  ///< write beats before their address
+  std::deque<Burst> requests_;  ///< writes whose data are not complete
+  Queue<WriteBeat> early_;      ///< write beats before their address
   std::deque<Burst> writes_, reads_;
 };
 

@@ -19,8 +19,9 @@ SlaveLink::SlaveLink(const Interface& interface, std::size_t clock, const pl::Rt
 }
 
 void SlaveLink::sample(bool in_reset) {
+  if (adapter_.idle() && !in_reset && checker_.idle() && !pins_.rtl_sends()) return;
   pins_.read(wires_);
-  checker_.edge(wires_, in_reset);
+  if (watched_) checker_.edge(wires_, in_reset);
   adapter_.sample();
 }
 
@@ -40,18 +41,22 @@ MasterLink::MasterLink(const Interface& interface, std::size_t clock, const pl::
       checker_(adapter_, clk, pins_.shape(), LinkChecker::Resets::manager) {}
 
 void MasterLink::sample(bool in_reset) {
+  quiet_ = quiet_ && !in_reset && checker_.idle() && !pins_.rtl_sends();
+  if (quiet_) return;
   pins_.read(wires_);
-  checker_.edge(wires_, in_reset);
+  if (watched_) checker_.edge(wires_, in_reset);
   adapter_.sample();
 }
 
 bool MasterLink::drive() {
+  if (quiet_) return false;
   const bool ready[] = {wires_.aw.ready, wires_.w.ready, wires_.ar.ready};
   const bool answers = wires_.b.valid || wires_.r.valid;
   adapter_.drive();
   const bool same = ready[0] == wires_.aw.ready && ready[1] == wires_.w.ready &&
                     ready[2] == wires_.ar.ready && !answers && !wires_.b.valid && !wires_.r.valid;
   if (!same) pins_.write(wires_);
+  quiet_ = same && adapter_.idle() && wires_.quiet();
   return !same;
 }
 
@@ -173,23 +178,31 @@ void StreamOutLink::connect(const Follow& follow) {
     const Pin pin = pins_.of(part);
     if (!pin) continue;  // TKEEP that the RTL does not have
     wire.defer_writes();
-    parts_.push_back({pin, &wire});
+    parts_.push_back({pin, &wire, wire.get()});
   }
 }
 
 void StreamOutLink::sample(bool) {
-  if (pins_.last || packet_beats_ == 0 || !port_.accepted()) return;
+  if (!port_.accepted()) return;
   beat_ = last() ? 0 : beat_ + 1;
 }
 
 void StreamOutLink::show_outputs() {
   if (pins_.valid.get() == 0) {
-    if (port_.tvalid.written()) port_.withdraw();
+    if (std::exchange(shown_.valid, false)) port_.withdraw();
     return;
   }
-  port_.offer(static_cast<std::uint32_t>(low_data_.get()), last(),
-              static_cast<std::uint8_t>(low_keep_.get(whole_word_)));
-  for (const Part& part : parts_) *part.wire = static_cast<std::uint32_t>(part.pin.get());
+  const Shown now{true, last(), static_cast<std::uint8_t>(low_keep_.get(whole_word_)),
+                  static_cast<std::uint32_t>(low_data_.get())};
+  const bool same =
+      shown_.valid && shown_.data == now.data && shown_.last == now.last && shown_.keep == now.keep;
+  if (!same) port_.offer(now.data, now.last, now.keep);
+  shown_ = now;
+  for (Part& part : parts_) {
+    const auto value = static_cast<std::uint32_t>(part.pin.get());
+    if (value != part.shown) *part.wire = value;
+    part.shown = value;
+  }
 }
 
 }  // namespace axi

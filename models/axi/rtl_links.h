@@ -27,13 +27,17 @@ class RtlLink {
   const std::string name;
   const std::size_t clock;
 
+  /// Whether sample() is to be called.
+  virtual bool samples() const { return true; }
   /// Before an edge of its clock. `in_reset`: that samples an active reset of the RTL.
   virtual void sample(bool in_reset) = 0;
   /// Behind it. True if an input of the RTL has changed.
   virtual bool drive() = 0;
   /// The next edge may count, whatever the RTL does.
   virtual bool busy() const = 0;
-  /// Signals follow the outputs of the RTL, once they have settled.
+  /// Before the simulation: whether a checker looks at it.
+  virtual void watch(bool /*on*/) {}
+  /// Signals follow the outputs of the RTL, once they have settled: those that have changed.
   virtual void show_outputs() {}
   /// At the end of the simulation.
   virtual void finish() {}
@@ -51,13 +55,17 @@ class SlaveLink final : public RtlLink {
   void sample(bool in_reset) override;
   bool drive() override;
   bool busy() const override { return !adapter_.idle() || driving_; }
-  void finish() override { checker_.finish(); }
+  void watch(bool on) override { watched_ = on; }
+  void finish() override {
+    if (watched_) checker_.finish();
+  }
 
  private:
   const MmPins pins_;
   Wires wires_;
   TlmToPins adapter_;
   LinkChecker checker_;
+  bool watched_ = true;
   bool driving_ = false;
 };
 
@@ -70,13 +78,18 @@ class MasterLink final : public RtlLink {
   void sample(bool in_reset) override;
   bool drive() override;
   bool busy() const override { return !adapter_.idle() || !wires_.quiet(); }
-  void finish() override { checker_.finish(); }
+  void watch(bool on) override { watched_ = on; }
+  void finish() override {
+    if (watched_) checker_.finish();
+  }
 
  private:
   const MmPins pins_;
   Wires wires_;
   PinsToTlm adapter_;
   LinkChecker checker_;
+  bool watched_ = true;
+  bool quiet_ = false;  ///< nothing is under way, and the RTL sends nothing
 };
 
 /// The pins of a stream of RTL, whichever way it goes.
@@ -119,6 +132,7 @@ class StreamOutLink final : public RtlLink {
   StreamOutLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
                 vp::Clocked& side, unsigned packet_beats);
   vp::AxiStreamMaster& port() { return port_; }
+  bool samples() const override { return !pins_.last && packet_beats_ != 0; }
   void sample(bool in_reset) override;
   bool drive() override { return false; }
   bool busy() const override { return false; }
@@ -132,11 +146,20 @@ class StreamOutLink final : public RtlLink {
   struct Part {
     Pin pin;
     vp::Signal<std::uint32_t>* wire;
+    std::uint32_t shown;
+  };
+
+  /// What the lowest wires show.
+  struct Shown {
+    bool valid = false, last = false;
+    std::uint8_t keep = 0;
+    std::uint32_t data = 0;
   };
 
   const StreamPins pins_;
   const Pin low_data_, low_keep_;
   const unsigned packet_beats_;
+  Shown shown_;
   std::vector<Part> parts_;
   std::uint64_t whole_word_ = 0;  ///< TKEEP where the RTL has none
   unsigned beat_ = 0;             ///< of a packet, where the RTL has no TLAST

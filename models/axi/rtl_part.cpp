@@ -6,6 +6,7 @@
 #include <vp/clock_scheduler.h>
 #include <vp/error.h>
 #include <vp/report.h>
+#include <vp/rule_reports.h>
 #include <vp/text.h>
 
 namespace axi {
@@ -84,6 +85,7 @@ void RtlPart::connect_clocks(const ClockPins& clocks) {
       refuse(interface, "clock '" + interface.name + "' is not connected");
   }
   fall_unseen_ = clocks_fall_unseen();
+  registered_ = has_note("registered");
 }
 
 // As a system reset does before time 0, after which the platform begins: all other inputs are 0.
@@ -174,10 +176,11 @@ TlmToPins& RtlPart::slave(const std::string& name) {
   const Interface& interface = claim(name, {Kind::axi4, Kind::axi_lite}, true);
   const vp::HierarchyScope inside(*this);
   const std::size_t clock = clock_of(interface);
-  return add(std::make_unique<SlaveLink>(
-                 interface, clock, *rtl_, sides_[clock]->clock(),
-                 [this, name](bool behind_edge) { begin(name, behind_edge); }))
-      .adapter();
+  auto& link = add(std::make_unique<SlaveLink>(
+      interface, clock, *rtl_, sides_[clock]->clock(),
+      [this, number = links_.size()](bool behind_edge) { begin(*links_[number], behind_edge); }));
+  buses_.push_back(&link);
+  return link.adapter();
 }
 
 PinsToTlm& RtlPart::master(const std::string& name) {
@@ -185,8 +188,9 @@ PinsToTlm& RtlPart::master(const std::string& name) {
   const Interface& interface = claim(name, {Kind::axi4, Kind::axi_lite}, false);
   const vp::HierarchyScope inside(*this);
   const std::size_t clock = clock_of(interface);
-  return add(std::make_unique<MasterLink>(interface, clock, *rtl_, sides_[clock]->clock()))
-      .adapter();
+  auto& link = add(std::make_unique<MasterLink>(interface, clock, *rtl_, sides_[clock]->clock()));
+  buses_.push_back(&link);
+  return link.adapter();
 }
 
 unsigned RtlPart::stream_bytes(const std::string& name) const {
@@ -236,7 +240,8 @@ void RtlPart::input(const std::string& name, vp::SignalBase& signal) {
   const Interface& interface = claim(name, {Kind::reset, Kind::wire}, true);
   if (pin_of(interface).bits() > 64)
     refuse(interface, "input '" + name + "' has more than 64 bits: signals have 64 at most");
-  inputs_.push_back({&signal, pin_of(interface)});
+  inputs_.push_back(
+      {&signal, pin_of(interface), has_note("edge", name), interface.kind == Kind::reset});
   named_inputs_.push_back({&interface, &signal});
   if (interface.kind == Kind::reset)
     reset_signals_.push_back({&signal, interface.active_low, clock_of(interface)});
@@ -287,7 +292,7 @@ void RtlPart::before_end_of_elaboration() {
 }
 
 void RtlPart::follow(vp::SignalBase& signal, const Pin& pin) {
-  if (pin) inputs_.push_back({&signal, pin});
+  if (pin) inputs_.push_back({&signal, pin, false, false});
 }
 
 void RtlPart::end_of_elaboration() {
@@ -323,8 +328,14 @@ void RtlPart::watch_inputs() {
 }
 
 void RtlPart::start_of_simulation() {
-  watch_inputs();
+  const bool watched = vp::links_are_watched();
+  if (watched) watch_inputs();
+  for (const auto& link : links_) {
+    link->watch(watched);
+    if (link->samples()) samplers_.push_back(link.get());
+  }
   for (const Input& input : inputs_) input.pin.set(input.signal->bits());
+  in_reset_ = in_reset();
   rtl_->evaluate();
   show_outputs();
   vp::info(*this, "/markervp/rtl/seed",
@@ -337,12 +348,20 @@ void RtlPart::start_of_simulation() {
 // signal whose writes are deferred becomes visible behind all that were written before it.
 void RtlPart::on_change(vp::SignalBase& signal, std::uint32_t id) {
   if (id == settle_id) return settle();
-  inputs_[id].pin.set(signal.bits());
+  const Input& input = inputs_[id];
+  input.pin.set(signal.bits());
+  if (input.resets) in_reset_ = in_reset();
+  // Behind an edge, registers sample it on the next one, and no output shows it before.
+  if (registered_ && !input.has_edge && now_ps() == edge_ps_) return wake();
   settles_ = !settles_.get();
 }
 
+std::uint64_t RtlPart::now_ps() const {
+  return sides_.front()->clock().scheduler().now_ps();
+}
+
 void RtlPart::settle() {
-  const std::uint64_t now = sides_.front()->clock().scheduler().now_ps();
+  const std::uint64_t now = now_ps();
   settled_ = now == settle_ps_ ? settled_ + 1 : 0;
   settle_ps_ = now;
   if (settled_ > most_settlings) {
@@ -369,8 +388,7 @@ void RtlPart::show_outputs() {
 
 /// The clocks that rise now, `clock` among them: a bit for each.
 unsigned RtlPart::rising_now(std::size_t clock) const {
-  if (sides_.size() == 1) return 1;
-  const std::uint64_t now = sides_.front()->clock().scheduler().now_ps();
+  const std::uint64_t now = now_ps();
   unsigned risen = 1u << clock;
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const vp::Clock& other = sides_[i]->clock();
@@ -381,26 +399,27 @@ unsigned RtlPart::rising_now(std::size_t clock) const {
 }
 
 void RtlPart::edge_of(std::size_t clock) {
+  const std::uint64_t now = now_ps();
+  unsigned risen = 1;
   if (sides_.size() > 1) {
-    const std::uint64_t now = sides_.front()->clock().scheduler().now_ps();
-    if (std::exchange(edge_ps_, now) == now) return;  // it has risen together with another
+    if (edge_ps_ == now) return;  // it has risen together with another
+    risen = rising_now(clock);
   }
-  const unsigned risen = rising_now(clock);
+  edge_ps_ = now;
   const auto rises = [risen](const auto& link) { return (risen >> link->clock & 1) != 0; };
-  const bool reset = in_reset();
-  for (const auto& link : links_) {
-    if (rises(link)) link->sample(reset);
+  for (RtlLink* link : samplers_) {
+    if (rises(link)) link->sample(in_reset_);
   }
   for (std::size_t i = 0; i < levels_.size(); ++i) *levels_[i] = risen >> i & 1;
   rtl_->evaluate();
   bool changed = false;
-  for (const auto& link : links_) {
-    if (rises(link) && link->drive()) changed = true;
+  for (RtlLink* bus : buses_) {
+    if (rises(bus) && bus->drive()) changed = true;
   }
-  lower(changed);
+  lower(changed && !registered_);
   show_outputs();
   if (changed) rest_->inputs_changed();
-  rest(risen);
+  if (rest_->due()) rest(risen);
 }
 
 bool RtlPart::in_reset() const {
@@ -421,6 +440,12 @@ void RtlPart::lower(bool inputs_changed) {
   rtl_->evaluate();
 }
 
+bool RtlPart::has_note(const std::string& what, const std::string& port) const {
+  const RtlDescriptor& rtl = rtl_->descriptor();
+  return std::any_of(rtl.notes, rtl.notes + rtl.note_count,
+                     [&](const RtlNote& note) { return note.what == what && note.port == port; });
+}
+
 /// RtlObject::lower() knows just the clocks that are connected.
 bool RtlPart::clocks_fall_unseen() const {
   std::size_t known = 0;
@@ -435,7 +460,7 @@ bool RtlPart::clocks_fall_unseen() const {
 }
 
 void RtlPart::rest(unsigned risen) {
-  if (rtl_->descriptor().state_bytes == 0 || !rest_->due()) return;
+  if (rtl_->descriptor().state_bytes == 0) return;
   for (const auto& link : links_) {
     if (link->busy()) return rest_->inputs_changed();
   }
@@ -443,8 +468,8 @@ void RtlPart::rest(unsigned risen) {
   for (const auto& side : sides_) side->sleep();
 }
 
-void RtlPart::begin(const std::string& slave, bool behind_edge) {
-  if (behind_edge && made<SlaveLink>(slave)->drive()) {
+void RtlPart::begin(RtlLink& slave, bool behind_edge) {
+  if (behind_edge && slave.drive() && !registered_) {
     rtl_->evaluate();
     show_outputs();
   }

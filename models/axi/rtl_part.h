@@ -121,11 +121,13 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   unsigned rising_now(std::size_t clock) const;
   bool in_reset() const;
   void lower(bool inputs_changed);
+  bool has_note(const std::string& what, const std::string& port = "") const;
   bool clocks_fall_unseen() const;
+  std::uint64_t now_ps() const;
   void settle();
   void show_outputs();
   void rest(unsigned risen);
-  void begin(const std::string& slave, bool behind_edge);
+  void begin(RtlLink& slave, bool behind_edge);
   void wake();
 
   std::string kind_;
@@ -137,6 +139,7 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   std::vector<std::unique_ptr<Side>> sides_;  ///< one for each clock
   std::vector<std::uint8_t*> levels_;         ///< of the clocks
   bool fall_unseen_ = false;                  ///< nothing in the RTL waits for a clock to fall
+  bool registered_ = false;                   ///< outputs change with edges alone
   std::map<std::string, bool> connected_;     ///< by interface, once it is
 
   struct ResetPin {
@@ -144,6 +147,7 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
     bool active_low;
   };
   std::vector<ResetPin> resets_;
+  bool in_reset_ = false;  ///< one of them is active
   struct ResetSignal {
     vp::SignalBase* signal;
     bool active_low;
@@ -151,11 +155,15 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   };
   std::vector<ResetSignal> reset_signals_;
   std::vector<std::unique_ptr<RtlLink>> links_;
-  std::vector<RtlLink*> streams_;  ///< those whose signals follow outputs
+  std::vector<RtlLink*> buses_;     ///< those whose adapters drive inputs
+  std::vector<RtlLink*> streams_;   ///< those whose signals follow outputs
+  std::vector<RtlLink*> samplers_;  ///< those that look at each edge
   std::deque<Output> outputs_;
   struct Input {
     vp::SignalBase* signal;
     Pin pin;
+    bool has_edge;  ///< something in the RTL waits for its edge, as for that of a clock
+    bool resets;
   };
   std::vector<Input> inputs_;
   struct NamedInput {

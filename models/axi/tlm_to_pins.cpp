@@ -28,6 +28,7 @@ TlmToPins::TlmToPins(sc_core::sc_module_name name, const vp::Clock& clock, const
       socket("socket"),
       clock_(clock),
       shape_(shape),
+      all_lanes_(lanes(0, shape.data_bytes)),
       wires_(wires),
       begin_(std::move(begin)) {
   socket.register_b_transport(this, &TlmToPins::b_transport);
@@ -263,7 +264,7 @@ void TlmToPins::drive_data() {
   if (part.bytes != shape_.data_bytes)
     std::fill_n(wires_.w.data.begin(), shape_.data_bytes, static_cast<unsigned char>(0));
   copy_bytes(&wires_.w.data[part.lane], payload.get_data_ptr() + part.offset, part.bytes);
-  wires_.w.strobes = lanes(part.lane, part.bytes);
+  wires_.w.strobes = part.bytes == shape_.data_bytes ? all_lanes_ : lanes(part.lane, part.bytes);
   for (unsigned i = 0; enables && i < part.bytes; ++i) {
     if (enables[(part.offset + i) % payload.get_byte_enable_length()] != TLM_BYTE_ENABLED)
       wires_.w.strobes.reset(part.lane + i);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <systemc>
 #include <tlm>
 #include <vector>
 
+#include <axi/queue.h>
 #include <axi/wires.h>
 #include <tlm_utils/simple_target_socket.h>
 #include <vp/clock.h>
@@ -91,13 +91,14 @@ class TlmToPins final : public sc_core::sc_module {
 
   const vp::Clock& clock_;
   const Shape shape_;
+  const Strobes all_lanes_;
   Wires& wires_;
   const Begin begin_;
 
-  std::deque<Burst> aw_, w_, b_, ar_, r_;  ///< bursts that wait for each channel, oldest first
-  unsigned w_beat_ = 0, r_beat_ = 0;       ///< of the oldest one
-  unsigned open_ = 0;                      ///< requests
-  bool warned_ = false;                    ///< of addresses beyond its pins
+  Queue<Burst> aw_, w_, b_, ar_, r_;  ///< bursts that wait for each channel, oldest first
+  unsigned w_beat_ = 0, r_beat_ = 0;  ///< of the oldest one
+  unsigned open_ = 0;                 ///< requests
+  bool warned_ = false;               ///< of addresses beyond its pins
 };
 
 }  // namespace axi

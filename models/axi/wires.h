@@ -50,6 +50,11 @@ struct Address {
   bool lock = false;
   std::uint8_t cache = 0, prot = 0, qos = 0, region = 0;
 
+  bool operator==(const Address& other) const {
+    return address == other.address && id == other.id && beats == other.beats &&
+           size == other.size && burst == other.burst && lock == other.lock &&
+           cache == other.cache && prot == other.prot && qos == other.qos && region == other.region;
+  }
   unsigned beat_bytes() const { return 1u << size; }
   /// Bytes before the address in its first beat.
   unsigned skew() const { return static_cast<unsigned>(address & (beat_bytes() - 1)); }

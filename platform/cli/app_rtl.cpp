@@ -20,7 +20,9 @@ Both get the same inputs, all that a system may give them, with the least parame
 unless you give others. PROVED EQUAL holds on every clock (0). DIFFERENT (1) says on which clock,
 prove.vcd shows it, and 'rtl check --stimulus' plays it. EQUAL for N clocks is no proof: it passes
 (0) with --depth N, and else it does not (1). UNKNOWN (1) says why.
-Without --rtl: that the streams of our RTL keep the rules of AXI4-Stream.)";
+Without --rtl: that the streams of our RTL keep the rules of AXI4-Stream.
+  markervp rtl prove --rtl my_slave.v --top my_slave
+Without an IP: that the AXI4, AXI4-Lite and AXI4-Stream links of any RTL keep their rules.)";
 
 constexpr const char* rtl_vectors_help =
     R"(  markervp rtl vectors corner_detection demo noise.png -o vectors
@@ -51,6 +53,12 @@ void add_reading_options(CLI::App& command, Options& target) {
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->take_all();
+  command
+      .add_option("--ghdl-option", target.ghdl_options,
+                  "one more for VHDL: --ghdl-option=-fexplicit")
+      ->type_name("OPTION")
+      ->expected(1)
+      ->take_all();
 }
 
 void add_rtl_prove(CLI::App& rtl, RtlOptions& target) {
@@ -58,11 +66,16 @@ void add_rtl_prove(CLI::App& rtl, RtlOptions& target) {
   prove->callback([&target] { target.command = "prove"; });
   RtlProveOptions& options = target.prove;
   prove->add_option("IP", target.ip, "the IP that it replaces: axi_threshold_bridge")
-      ->type_name("")
-      ->required();
-  prove->add_option("--rtl", options.rtl, "your own Verilog")->type_name("DIR");
+      ->type_name("");
+  prove->add_option("--rtl", options.rtl, "your own Verilog or VHDL")->type_name("DIR");
   prove->add_option("--top", options.top, "the module in them (default: that of the IP's name)")
       ->type_name("MODULE");
+  prove
+      ->add_option("--interface", options.interfaces,
+                   "what a port is, without an IP: 'rst: reset high', 'status: wire'")
+      ->type_name("PORT: KIND")
+      ->expected(1)
+      ->take_all();
   add_reading_options(*prove, options);
   prove->add_option("--time", options.seconds, "of the processor, for all of it (default: 60)")
       ->type_name("SECONDS")

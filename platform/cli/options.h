@@ -107,7 +107,8 @@ struct RtlSynthOptions {
   std::optional<std::string> top;     ///< the module in them
   std::vector<std::string> includes;  ///< folders
   std::vector<std::string> defines;   ///< NAME or NAME=VALUE
-  bool no_dsp = false;                ///< multiplications from LUT
+  std::vector<std::string> ghdl_options;
+  bool no_dsp = false;  ///< multiplications from LUT
   std::optional<std::string> output;
 };
 
@@ -115,7 +116,8 @@ struct RtlSynthOptions {
 struct RtlProveOptions {
   std::optional<std::string> rtl;  ///< a folder of the user's; none: the streams of ours
   std::optional<std::string> top;  ///< none: the module of the IP's name
-  std::vector<std::string> parameters, includes, defines;  ///< as RtlSynthOptions
+  std::vector<std::string> parameters, includes, defines, ghdl_options;  ///< as RtlSynthOptions
+  std::vector<std::string> interfaces;  ///< as INTERFACES of markervp_add_rtl()
   unsigned seconds = 60;
   std::uint64_t depth = 0;  ///< clocks that are enough; 0: only a proof is
   std::string output = "out";

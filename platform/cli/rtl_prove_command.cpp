@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <regex>
+#include <utility>
 
+#include <axi/interfaces.h>
 #include <cli/commands.h>
 #include <fpga/proof/equivalence.h>
-#include <fpga/synthesis/vhdl.h>
+#include <fpga/proof/miter.h>
 #include <host/document.h>
 #include <host/output_folder.h>
 #include <result/console.h>
@@ -23,6 +26,61 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using proof::Verdict;
 
+/// The interfaces of a module, found as those of a part of a design are.
+proof::Pins pins_of(const std::vector<proof::Port>& ports, const std::string& top,
+                    const std::vector<std::string>& interfaces) {
+  std::vector<RtlPort> list;
+  for (const proof::Port& port : ports)
+    list.push_back({port.name.c_str(), port.bits, port.output ? 1 : 0, port.place.c_str()});
+  std::vector<std::pair<std::string, std::string>> said;
+  for (const std::string& entry : interfaces) {
+    const std::size_t colon = entry.find(':');
+    if (colon == 0 || colon == std::string::npos)
+      throw vp::InputError("--interface '" + entry + "' is not '<port or prefix>: <kind>'");
+    said.emplace_back(entry.substr(0, colon), vp::trim(entry.substr(colon + 1)));
+  }
+  std::vector<RtlNote> notes;
+  for (const auto& [port, text] : said) notes.push_back({"interface", port.c_str(), text.c_str()});
+  RtlDescriptor module{};
+  module.ip = "";
+  module.top = top.c_str();
+  module.place = top.c_str();
+  module.port_count = static_cast<std::uint32_t>(list.size());
+  module.ports = list.data();
+  module.note_count = static_cast<std::uint32_t>(notes.size());
+  module.notes = notes.data();
+  proof::Pins pins;
+  for (const axi::Interface& one : axi::find_interfaces(module)) {
+    const auto port_of = [&](std::uint32_t number) { return std::string(list[number].name); };
+    if (one.kind == axi::Kind::clock) {
+      if (!pins.clock.empty())
+        throw vp::InputError("'" + top + "' has the clocks '" + pins.clock + "' and '" + one.name +
+                             "': a proof has one clock");
+      pins.clock = one.name;
+    } else if (one.kind == axi::Kind::reset) {
+      pins.resets.push_back({one.name, one.active_low});
+    }
+    const bool stream = one.kind == axi::Kind::axi_stream, full = one.kind == axi::Kind::axi4;
+    if (!stream && !full && one.kind != axi::Kind::axi_lite) continue;
+    proof::Link& link = pins.links.emplace_back();
+    link.kind = stream ? proof::Link::Kind::axi_stream
+                : full ? proof::Link::Kind::axi4
+                       : proof::Link::Kind::axi_lite;
+    link.name = one.name.empty() ? (stream ? "axis" : "axi") : one.name;
+    link.slave = one.slave;
+    for (const auto& [signal, number] : one.ports) link.ports[signal] = port_of(number);
+  }
+  if (pins.links.empty())
+    throw vp::InputError("'" + top +
+                         "' has no AXI4, AXI4-Lite or AXI4-Stream link: there are no "
+                         "rules to prove");
+  if (pins.clock.empty())
+    throw vp::InputError("'" + top +
+                         "' has no clock that is known by its name: say which port it "
+                         "is, --interface '<port>: clock'");
+  return pins;
+}
+
 proof::Claim claim_of(const std::string& ip, const RtlProveOptions& options) {
   proof::Claim claim;
   claim.ip = ip;
@@ -30,6 +88,12 @@ proof::Claim claim_of(const std::string& ip, const RtlProveOptions& options) {
   claim.seconds = options.seconds;
   claim.depth = options.depth;
   claim.folder = options.output;
+  if (ip.empty() && !(options.rtl && options.top))
+    throw vp::InputError(
+        "name an IP; or give --rtl and --top, whose links are to keep their rules");
+  if (!ip.empty() && !options.interfaces.empty())
+    throw vp::InputError("--interface is for RTL without an IP: the ports of '" + ip +
+                         "' are known");
   if (!options.rtl) {
     if (options.top) throw vp::InputError("--top is a module of --rtl: give both");
     return claim;
@@ -38,15 +102,25 @@ proof::Claim claim_of(const std::string& ip, const RtlProveOptions& options) {
     throw vp::InputError("--rtl '" + *options.rtl +
                          "' is built: 'rtl prove' reads sources; give their folder");
   }
-  claim.theirs = {ip, options.top.value_or(ip), synthesis::sources_in(*options.rtl), {}};
-  if (synthesis::is_of_vhdl(*claim.theirs)) {
-    throw vp::InputError(
-        "'" + claim.theirs->top +
-        "' is VHDL, which is proved as the Verilog that GHDL makes of it: build it "
-        "with markervp_add_rtl(), and give <name>.rtl of the build folder");
-  }
+  std::error_code ignored;
+  const bool file = fs::is_regular_file(*options.rtl, ignored);
+  claim.theirs = {ip,
+                  options.top.value_or(ip),
+                  file ? std::vector<fs::path>{*options.rtl} : synthesis::sources_in(*options.rtl),
+                  {}};
   claim.theirs->includes.assign(options.includes.begin(), options.includes.end());
   claim.theirs->defines = options.defines;
+  claim.theirs->ghdl_options = options.ghdl_options;
+  if (ip.empty()) {
+    claim.find_pins = [top = *options.top, &options](const std::vector<proof::Port>& ports) {
+      try {
+        return pins_of(ports, top, options.interfaces);
+      } catch (const vp::InputError& error) {
+        throw vp::InputError(
+            std::regex_replace(error.what(), std::regex("\\bINTERFACES\\b"), "--interface"));
+      }
+    };
+  }
   return claim;
 }
 
@@ -105,22 +179,23 @@ std::string text_of(const std::vector<proof::Difference>& differences) {
   return text;
 }
 
-int tell(const RtlProveOptions& options, const std::string& what, const proof::Answer& answer,
-         std::ostream& out, std::ostream& err) {
+/// `equal`: of two; else one keeps its rules.
+int tell(const RtlProveOptions& options, bool equal, const std::string& what,
+         const proof::Answer& answer, std::ostream& out, std::ostream& err) {
   switch (answer.verdict) {
     case Verdict::proved:
-      out << (options.rtl ? "PROVED EQUAL: " : "PROVED: ") << what << ", on every clock\n";
+      out << (equal ? "PROVED EQUAL: " : "PROVED: ") << what << ", on every clock\n";
       return done;
     case Verdict::bounded:
-      out << (options.rtl ? "EQUAL for " : "KEPT for ") << result::counted(answer.clocks, "clock")
-          << ": " << what << "\n";
+      out << (equal ? "EQUAL for " : "KEPT for ") << result::counted(answer.clocks, "clock") << ": "
+          << what << "\n";
       if (options.depth != 0 && answer.clocks >= options.depth) return done;
       err << "markervp: that is no proof: give it more --time, smaller parameters, or say with "
              "--depth how many clocks are enough\n";
       return run_failed;
     case Verdict::different:
-      err << "markervp: " << (options.rtl ? "DIFFERENT" : "BROKEN") << " behind clock "
-          << answer.clocks << ": " << text_of(answer.differences) << "\n";
+      err << "markervp: " << (equal ? "DIFFERENT" : "BROKEN") << " behind clock " << answer.clocks
+          << ": " << text_of(answer.differences) << "\n";
       out << "look at it: gtkwave " << options.output << "/" << proof::trace_name << "\n";
       return run_failed;
     case Verdict::unknown:
@@ -143,9 +218,12 @@ int prove_rtl(const std::string& ip, const RtlProveOptions& options, std::ostrea
   vp::write_file((folder / "prove.json").string(), to_json(ip, answer).dump(2) + "\n");
   print_terms(answer, out);
   out << std::flush;
-  const std::string what =
-      options.rtl ? ip + " of '" + *options.rtl + "' and ours" : "streams of our " + ip;
-  return tell(options, what, answer, out, err);
+  const bool equal = options.rtl && !ip.empty();
+  const std::string what = equal ? ip + " of '" + *options.rtl + "' and ours"
+                           : ip.empty()
+                               ? "links of '" + *options.top + "' of '" + *options.rtl + "'"
+                               : "streams of our " + ip;
+  return tell(options, equal, what, answer, out, err);
 }
 
 }  // namespace platform::cli

@@ -128,6 +128,7 @@ int synthesise_rtl(const RtlSynthOptions& options, std::ostream& out) {
     design.dsp = !options.no_dsp;
     design.includes.assign(options.includes.begin(), options.includes.end());
     design.defines = options.defines;
+    design.ghdl_options = options.ghdl_options;
   }
   std::optional<vp::OutputFile> file;
   if (options.output) file.emplace(*options.output);

@@ -59,12 +59,6 @@ bool says(const std::string& text, const std::string& part) {
 
 BOOST_FIXTURE_TEST_SUITE(rtl_prove, Prove)
 
-BOOST_AUTO_TEST_CASE(vhdl_is_proved_as_verilog) {
-  std::filesystem::create_directories(*this / "rtl");
-  kit::write_file(*this / "rtl/own.vhd", "entity frame_status is end;\n");
-  check_refused({"frame_status", "--rtl", "rtl"}, "'frame_status' is VHDL, which is proved as");
-}
-
 BOOST_AUTO_TEST_CASE(what_cannot_be_proved_is_refused) {
   kit::write_file(*this / "own.v", "module own(input a);\nendmodule\n");
   std::filesystem::create_directories(*this / "empty");
@@ -75,9 +69,82 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_proved_is_refused) {
   check_refused({"frame_status"}, "no stream whose rules");
   check_refused({"frame_status", "--rtl", ".", "--parameter", "WIDTH"}, "give NAME=NUMBER");
   check_refused({"frame_status", "--rtl", ".", "--depth", "0"}, "--depth");
+  check_refused({}, "name an IP; or give --rtl and --top");
+  check_refused({"--rtl", "own.v"}, "name an IP; or give --rtl and --top");
+  check_refused({"frame_status", "--interface", "a: wire"}, "--interface is for RTL without an IP");
 }
 
 #ifdef MARKERVP_PROOFS
+
+BOOST_AUTO_TEST_CASE(links_of_any_rtl_are_proved_to_keep_their_rules) {
+  const auto write = [&](const char* next) {
+    kit::write_file(*this / "own.v",
+                    std::string("module own(input clk, input rst, output reg [31:0] m_tdata = 0,\n"
+                                "  output reg m_tvalid = 0, input m_tready);\n"
+                                "  always @(posedge clk) begin\n    m_tvalid <= !rst;\n    if (") +
+                        next + ") m_tdata <= m_tdata + 1;\n  end\nendmodule\n");
+  };
+  const Arguments links{"--rtl", "own.v", "--top", "own", "--interface", "rst: reset high"};
+  write("m_tvalid && m_tready");
+  check_refused({"--rtl", "own.v", "--top", "own"}, "own.v:1: reset 'rst'");
+  check_refused({"--rtl", "own.v", "--top", "own"}, "say --interface \"rst: reset high\"");
+  check_refused({"--rtl", "own.v", "--top", "own", "--interface", "rst"}, "<port or prefix>");
+  kit::Outcome outcome = prove(links);
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(says(outcome.out, "PROVED: links of 'own' of 'own.v', on every clock"), outcome.out);
+  BOOST_TEST(report()["compared"].size() == 3u);
+  write("m_tvalid");
+  outcome = prove(links);
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(says(outcome.err, "BROKEN behind clock"), outcome.err);
+  BOOST_TEST(says(outcome.err, "m_AXI4STREAM_ERRM_TDATA_STABLE"), outcome.err);
+  BOOST_TEST(has("out/prove.vcd"));
+  kit::write_file(*this / "own.v", "module own(input clk, output x);\nassign x = 0;\nendmodule\n");
+  check_refused({"--rtl", "own.v", "--top", "own"}, "no AXI4, AXI4-Lite or AXI4-Stream link");
+}
+
+BOOST_AUTO_TEST_CASE(vhdl_is_proved_equal) {
+  std::filesystem::create_directories(*this / "rtl");
+  const auto write = [&](const char* busy) {
+    kit::write_file(*this / "rtl/own.vhd", std::string(R"(library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+entity frame_status is
+  port (clk, rst, frame_ena, idle, corner_out, blob_out : in std_logic; busy, done : out std_logic);
+end;
+architecture rtl of frame_status is
+  signal left : unsigned(3 downto 0) := (others => '0');
+  signal started : std_logic := '0';
+  signal works : std_logic;
+begin
+  process (clk) begin
+    if rising_edge(clk) then
+      if rst = '1' then
+        left <= to_unsigned(15, 4);
+        started <= '0';
+      elsif frame_ena = '1' then
+        left <= to_unsigned(15, 4);
+        started <= '1';
+      elsif started = '1' and left /= 0 then
+        left <= left - 1;
+      end if;
+    end if;
+  end process;
+  works <= '1' when started = '1' and (left /= 0 or idle = '0' or frame_ena = '1') else '0';
+  busy <= )") + busy + R"(;
+  done <= started and not works and not corner_out and not blob_out;
+end;
+)");
+  };
+  write("works");
+  const kit::Outcome equal = prove({"frame_status", "--rtl", "rtl"});
+  BOOST_TEST(equal.exit_code == 0, equal.err);
+  BOOST_TEST(says(equal.out, "PROVED EQUAL"), equal.out);
+  write("works and not blob_out");
+  const kit::Outcome different = prove({"frame_status", "--rtl", "rtl"});
+  BOOST_TEST(different.exit_code == 1, different.out);
+  BOOST_TEST(says(different.err, "busy is 0x1 in ours, 0x0 in the RTL"), different.err);
+}
 
 BOOST_AUTO_TEST_CASE(equal_rtl_passes) {
   const kit::Outcome outcome = prove_frame_status("1'b0");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <vp/ip.h>
+#include <vp/rule_reports.h>
 #include <vp/stream_checker.h>
 
 namespace vp {
@@ -50,10 +51,12 @@ void AxiStream::join() {
   const StreamShape &from = master_->shape(), &to = slave_end_->shape();
   bytes_ = bytes_between(from, to);
   tkeep.set_width(std::clamp(bytes_, data_bytes, keep_lanes));
+  whole_keep_ = static_cast<std::uint8_t>((1u << std::min(bytes_, keep_lanes)) - 1);
   const HierarchyScope inside(*this);
   for (const StreamPart& part : parts_between(from, to)) {
     const bool whole = part.field == StreamField::keep || part.field == StreamField::strobe;
     const std::uint32_t initial = whole ? ~0u >> (32 - part.bits) : 0;
+    more_lanes_ = more_lanes_ || whole;
     parts_.emplace_back(part, initial, master_->owner_, slave_end_->owner_);
   }
 }
@@ -102,7 +105,7 @@ void AxiStream::pass_singly(StreamFault* fault) {
 }
 
 void AxiStream::start_of_simulation() {
-  if (!master_ || !slave_) return;
+  if (!master_ || !slave_ || !links_are_watched()) return;
   std::vector<StreamChecker::Reset> resets;
   for (const AxiStreamMaster::Reset& reset : master_->resets_) {
     if (SignalBase* signal = reset.signal()) resets.push_back({signal, reset.active_low});

@@ -97,9 +97,13 @@ MmLink::MmLink(sc_core::sc_module_name name) : sc_module(name), socket("socket")
 
 void MmLink::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   for (MmObserver* observer : observers_) observer->before(*this, payload, delay);
-  const PayloadChecker::Sent sent = checker_.before(payload);
-  socket->b_transport(payload, delay);
-  checker_.after(sent, payload);
+  if (watched_) {
+    const PayloadChecker::Sent sent = checker_.before(payload);
+    socket->b_transport(payload, delay);
+    checker_.after(sent, payload);
+  } else {
+    socket->b_transport(payload, delay);
+  }
   for (MmObserver* observer : observers_) observer->after(*this, payload, delay);
   count(payload.get_command(), payload.get_data_length(), payload.is_response_error());
 }
@@ -120,7 +124,7 @@ bool MmLink::direct_memory(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi)
     route->add(*this);
   }
   if (!direct_allowed() || !socket->get_direct_mem_ptr(payload, dmi)) return false;
-  if (!route) checker_.granted(payload, dmi);
+  if (!route && watched_) checker_.granted(payload, dmi);
   return true;
 }
 

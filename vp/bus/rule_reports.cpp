@@ -10,19 +10,28 @@ namespace vp {
 
 ProtocolChecks::ProtocolChecks(sc_core::sc_module_name name) : sc_module(name) {
   on_.fill(true);
-  const Configuration* configuration = Configuration::current();
-  for (std::size_t i = 0; configuration && i < rule_count; ++i) {
+  read("watch", watch_, Source::decision, "whether links are watched at all");
+  for (std::size_t i = 0; i < rule_count; ++i) {
     const RuleInfo& rule = info_of(static_cast<Rule>(i));
-    if (!configuration->find(std::string(this->name()) + "." + rule.name)) continue;
-    set_.push_back(
-        std::make_unique<Parameter<bool>>(rule.name, true, Source::published, rule.statement));
-    on_[i] = *set_.back();
+    read(rule.name, on_[i], Source::published, rule.statement);
   }
+}
+
+void ProtocolChecks::read(const std::string& name, bool& on, Source source, const char* text) {
+  const Configuration* configuration = Configuration::current();
+  if (!configuration || !configuration->find(std::string(this->name()) + "." + name)) return;
+  set_.push_back(std::make_unique<Parameter<bool>>(name.c_str(), true, source, text));
+  on = *set_.back();
+}
+
+bool links_are_watched() {
+  const auto* checks = dynamic_cast<const ProtocolChecks*>(sc_core::sc_find_object("checks"));
+  return !checks || checks->watch_links();
 }
 
 void RuleReports::violate(Rule rule, const Clock* clock, const std::string& what) {
   if (!checks_) checks_ = dynamic_cast<const ProtocolChecks*>(sc_core::sc_find_object("checks"));
-  if (*checks_ && !(*checks_)->watches(rule)) return;
+  if (*checks_ && !((*checks_)->watch_links() && (*checks_)->watches(rule))) return;
   if (++counts_[static_cast<std::size_t>(rule)] != 1) return;
   const RuleInfo& info = info_of(rule);
   std::string text = std::string(info.name) + ": " + what + "; " + info.statement;

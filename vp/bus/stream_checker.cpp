@@ -48,8 +48,14 @@ StreamChecker::StreamChecker(AxiStream& link, const Clock& clock, const std::vec
              {{StreamField::keep, 0, link.tkeep.width()}, &link.tkeep}},
       resets_(resets),
       reset_levels_(resets.size()),
+      low_keep_{link.tkeep.place(),
+                static_cast<std::uint8_t>(ones(std::min(link.tkeep.width(), link.bytes())))},
       reports_(link) {
-  for (AxiStream::Part& part : link.parts()) parts_.push_back({part.part, &part.wire});
+  for (AxiStream::Part& part : link.parts()) {
+    parts_.push_back({part.part, &part.wire});
+    if (part.part.field == StreamField::keep || part.part.field == StreamField::strobe)
+      lanes_.emplace_back(part.wire.place(), static_cast<std::uint32_t>(ones(part.part.bits)));
+  }
   for (const Wire wire : {valid, ready}) {
     levels_[wire].now = levels_[wire].before = signals_[wire]->bits();
     signals_[wire]->attach(*this, wire);
@@ -174,7 +180,7 @@ std::uint64_t StreamChecker::kept(unsigned first_bit, std::uint64_t ps) const {
   return mask;
 }
 
-void StreamChecker::pass(bool last_beat) {
+void StreamChecker::check_lanes(bool last_beat) {
   for (const Part& part : parts_) {
     const std::uint64_t bits = part.wire->bits();
     if (part.part.field == StreamField::keep && !last_beat) {

@@ -290,11 +290,10 @@ void Clock::run_edge() {
 
 void Clock::run_attended(std::size_t from) {
   for_each_attended(from, [&](std::size_t i) {
-    const Place& place = places_[i];
-    const bool due = alarms_[i] == cycle_;
+    const bool due = alarms_.bound() <= cycle_ && alarms_[i] == cycle_;
     if (due) alarms_.set(i, never);
-    if (place.awake || due) place.module->edge();
-    if (alarms_[i] == never && !place.awake) attend_to(i);
+    if (places_[i].awake || due) places_[i].module->edge();
+    if (!places_[i].awake && alarms_[i] == never) attend_to(i);
   });
 }
 

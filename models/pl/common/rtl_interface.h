@@ -23,7 +23,9 @@ struct RtlParameter {
 
 // What is said of a port. `what`: "info" and "parameter" are the values of X_INTERFACE_INFO and
 // X_INTERFACE_PARAMETER in the source; "interface" is an entry of INTERFACES, of which `port` may
-// be the prefix of several; "unseen" is a clock that lower() lowers.
+// be the prefix of several; "unseen" is a clock that lower() lowers; "registered", without a port,
+// says that no input reaches an output but through an edge, and "edge" is an input beside the
+// clocks whose own edges count.
 struct RtlNote {
   const char* what;
   const char* port;

@@ -11,6 +11,7 @@
 #include <fpga/proof/engine.h>
 #include <fpga/proof/miter.h>
 #include <fpga/synthesis/synthesis.h>
+#include <fpga/synthesis/vhdl.h>
 #include <fpga/synthesis/yosys.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -29,7 +30,7 @@ constexpr const char* ports_file = "ports.json";
 /// One side of a miter: a module without others in it, as a file. What it assumes of its inputs is
 /// no condition of ours.
 std::vector<Port> elaborate(const Design& design, const char* name, const fs::path& folder,
-                            const Budget& budget) {
+                            const Budget& budget, const std::string& clock = "clk") {
   YosysFolder yosys(design);
   const std::string file = std::string(name) + ".il";
   const host::CommandEnd end = yosys.run(
@@ -45,6 +46,8 @@ std::vector<Port> elaborate(const Design& design, const char* name, const fs::pa
     synthesis::refuse(design, "Yosys does not come to an end: give it more --time");
   if (end.exit_code != 0) yosys.refuse(end);
   fs::copy_file(yosys / file, folder / file);
+  fs::copy_file(yosys / ports_file, folder / (name + std::string(".json")));
+  if (!clock.empty()) check_clock(yosys / ports_file, clock);
   return read_ports(yosys / ports_file);
 }
 
@@ -126,44 +129,27 @@ std::string circuit_script() {
          "write_aiger -zinit -map miter.aim miter.aig\n";
 }
 
-}  // namespace
-
-Answer prove(const Claim& claim) {
-  const Contract& contract = contract_of(claim.ip);
-  if (!claim.theirs && contract.streams_out.empty())
-    throw vp::InputError("'" + claim.ip +
-                         "' has no stream whose rules could be proved: give RTL "
-                         "to compare it with (--rtl)");
-  const Budget budget(claim.seconds);
-  const Sides sides = sides_of(claim, contract);
-  const host::ScratchFolder scratch("prove");
-  const std::vector<Port> ours = elaborate(sides.ours, Miter::ours, scratch.path(), budget);
-  const Miter miter = sides.theirs
-                          ? Miter(contract, sides.ours.parameters, ours,
-                                  elaborate(*sides.theirs, Miter::theirs, scratch.path(), budget))
-                          : Miter(contract, sides.ours.parameters, ours);
-  Answer answer;
-  answer.parameters = sides.ours.parameters;
-  answer.ours_alone = sides.ours_alone;
-  answer.assumptions = assumptions(contract);
+/// Looks at the miter of what lies in the folder.
+void look(const Miter& miter, const Claim& claim, const fs::path& folder, const Budget& budget,
+          Answer& answer) {
   answer.compared = miter.compared();
   answer.not_compared = miter.not_compared();
-  const std::string reading = sides.theirs ? "read_rtlil theirs.il\n" : "";
-  vp::write_file((scratch / "miter.sv").string(), miter.verilog());
-  vp::write_file((scratch / "circuit.ys").string(), reading + circuit_script());
+  const std::string reading = fs::exists(folder / "theirs.il") ? "read_rtlil theirs.il\n" : "";
+  vp::write_file((folder / "miter.sv").string(), miter.verilog());
+  vp::write_file((folder / "circuit.ys").string(), reading + circuit_script());
   const host::CommandEnd made =
-      synthesis::run_in(scratch.path(), {"yosys", "-q", "-s", "circuit.ys"}, budget.seconds_left());
+      synthesis::run_in(folder, {"yosys", "-q", "-s", "circuit.ys"}, budget.seconds_left());
   if (made.exit_code != 0 && budget.is_over()) {
     answer.why = "Yosys did not make gates of it in time";
-    return answer;
+    return;
   }
-  if (made.exit_code != 0) throw vp::HostError("Yosys cannot make gates of both: " + made.out);
-  const Search found = search(scratch / "miter.aig", budget, claim.depth);
+  if (made.exit_code != 0) throw vp::HostError("Yosys cannot make gates of it: " + made.out);
+  const Search found = search(folder / "miter.aig", budget, claim.depth);
   answer.clocks = found.clocks;
   if (found.proved) {
     answer.verdict = Verdict::proved;
   } else if (found.inputs) {
-    const Counterexample example(scratch.path(), miter, *found.inputs);
+    const Counterexample example(folder, miter, *found.inputs);
     answer.clocks = example.clock();
     answer.differences = example.differences();
     answer.verdict = answer.differences.empty() ? Verdict::unknown : Verdict::different;
@@ -175,6 +161,52 @@ Answer prove(const Claim& claim) {
   } else {
     answer.why = "no clock could be looked at in time";
   }
+}
+
+/// The Verilog of VHDL, its generics set.
+Design readable(const Design& design, const fs::path& folder) {
+  return synthesis::is_of_vhdl(design) ? synthesis::verilog_of(design, folder) : design;
+}
+
+/// RTL alone, whose links keep the rules of AXI.
+Answer prove_links(const Claim& claim) {
+  const Budget budget(claim.seconds);
+  const host::ScratchFolder scratch("prove");
+  Design design = *claim.theirs;
+  design.parameters = claim.parameters;
+  design = readable(design, scratch.path());
+  const std::vector<Port> ports = elaborate(design, Miter::ours, scratch.path(), budget, "");
+  const Pins pins = claim.find_pins(ports);
+  check_clock(scratch / (std::string(Miter::ours) + ".json"), pins.clock);
+  Answer answer;
+  answer.parameters = claim.parameters;
+  answer.assumptions = assumptions(pins);
+  look(Miter(ports, pins), claim, scratch.path(), budget, answer);
+  return answer;
+}
+
+}  // namespace
+
+Answer prove(const Claim& claim) {
+  if (claim.ip.empty()) return prove_links(claim);
+  const Contract& contract = contract_of(claim.ip);
+  if (!claim.theirs && contract.streams_out.empty())
+    throw vp::InputError("'" + claim.ip +
+                         "' has no stream whose rules could be proved: give RTL "
+                         "to compare it with (--rtl)");
+  const Budget budget(claim.seconds);
+  const Sides sides = sides_of(claim, contract);
+  const host::ScratchFolder scratch("prove");
+  const std::vector<Port> ours = elaborate(sides.ours, Miter::ours, scratch.path(), budget);
+  const Miter miter = sides.theirs ? Miter(contract, sides.ours.parameters, ours,
+                                           elaborate(readable(*sides.theirs, scratch.path()),
+                                                     Miter::theirs, scratch.path(), budget))
+                                   : Miter(contract, sides.ours.parameters, ours);
+  Answer answer;
+  answer.parameters = sides.ours.parameters;
+  answer.ours_alone = sides.ours_alone;
+  answer.assumptions = assumptions(contract);
+  look(miter, claim, scratch.path(), budget, answer);
   return answer;
 }
 

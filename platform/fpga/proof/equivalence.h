@@ -7,14 +7,16 @@
 #include <vector>
 
 #include <fpga/proof/contract.h>
+#include <fpga/proof/links.h>
 
 namespace platform::proof {
 
 struct Claim {
-  std::string ip;
+  std::string ip;  ///< none: `theirs` alone, whose links keep the rules of AXI
   /// In the place of the IP; none: the RTL that comes with markervp, whose streams keep the rules
   /// of AXI4-Stream.
   std::optional<synthesis::Design> theirs;
+  FindPins find_pins = {};           ///< without an IP
   synthesis::Parameters parameters;  ///< in place of the least legal ones
   unsigned seconds = 60;             ///< of the processor, for everything
   std::uint64_t depth = 0;           ///< clocks that are enough; 0: none

@@ -23,11 +23,6 @@ const Port* find(const std::vector<Port>& ports, const std::string& name) {
   return found == ports.end() ? nullptr : &*found;
 }
 
-std::string declaration(const Port& port) {
-  const std::string range = port.bits == 1 ? "" : fmt::format("[{}:0] ", port.bits - 1);
-  return fmt::format("{} logic {}{}", port.output ? "output" : "input", range, port.name);
-}
-
 [[noreturn]] void refuse(const Port& port, const std::string& why) {
   throw vp::InputError((port.place.empty() ? "" : port.place + ": ") + why);
 }
@@ -51,22 +46,31 @@ bool has_a_one(const Json& cell, const std::string& parameter) {
 }
 
 /// AIGER knows one clock, and Yosys takes each register as if it had that one.
-void check_clock(const Json& cell, const Json& clock) {
+void check_clock(const Json& cell, const Json& clock, const std::string& name) {
   constexpr const char* input = "CLK";
   const auto& connections = cell.at("connections");
   if (!connections.contains(input) || !has_a_one(cell, "CLK_ENABLE")) return;
   if (connections.at(input) == clock && has_a_one(cell, "CLK_POLARITY")) return;
   throw vp::InputError(
       place_of(cell.at("attributes")) +
-      ": a register or memory is clocked by something else than the rising edge of "
-      "'clk': a proof has one clock; 'rtl check' plays it");
+      ": a register or memory is clocked by something else than the rising edge of '" + name +
+      "': a proof has one clock; 'rtl check' plays it");
+}
+
+Json netlist_in(const fs::path& file) {
+  return host::parse_json(vp::read_text(file, "netlist", host::largest_result),
+                          "netlist '" + file.string() + "'");
 }
 
 }  // namespace
 
+std::string declaration_of(const Port& port) {
+  const std::string range = port.bits == 1 ? "" : fmt::format("[{}:0] ", port.bits - 1);
+  return fmt::format("{} logic {}{}", port.output ? "output" : "input", range, port.name);
+}
+
 std::vector<Port> read_ports(const fs::path& file) {
-  const auto json = host::parse_json(vp::read_text(file, "netlist", host::largest_result),
-                                     "netlist '" + file.string() + "'");
+  const Json json = netlist_in(file);
   const auto& module = json.at("modules").begin().value();
   std::vector<Port> ports;
   for (const auto& [name, port] : module.at("ports").items()) {
@@ -78,10 +82,20 @@ std::vector<Port> read_ports(const fs::path& file) {
     ports.push_back(
         {name, static_cast<unsigned>(port.at("bits").size()), direction == "output", place});
   }
-  const auto& all = module.at("ports");
-  const Json clock = all.contains(clock_name) ? all.at(clock_name).at("bits") : Json();
-  for (const auto& cell : module.at("cells")) check_clock(cell, clock);
   return ports;
+}
+
+void check_clock(const fs::path& file, const std::string& name) {
+  const Json json = netlist_in(file);
+  const auto& module = json.at("modules").begin().value();
+  const auto& all = module.at("ports");
+  const Json clock = all.contains(name) ? all.at(name).at("bits") : Json();
+  for (const auto& cell : module.at("cells")) check_clock(cell, clock, name);
+}
+
+const Contract& Miter::nothing() {
+  static const Contract contract;
+  return contract;
 }
 
 Miter::Miter(const Contract& contract, const synthesis::Parameters& parameters,
@@ -92,13 +106,13 @@ Miter::Miter(const Contract& contract, const synthesis::Parameters& parameters,
     if (mine == nullptr) refuse(port, fmt::format("the IP has no port '{}': remove it", port.name));
     const bool narrower = port.bits < mine->bits && contract.reports.count(port.name) != 0;
     if (port.output != mine->output || (port.bits != mine->bits && !narrower))
-      refuse(port, fmt::format("port '{}': declare '{}'", port.name, declaration(*mine)));
+      refuse(port, fmt::format("port '{}': declare '{}'", port.name, declaration_of(*mine)));
   }
   for (const Port& port : ours) {
     const bool needed = contract.reports.count(port.name) == 0 && !is_idle_lane(port.name);
     if (needed && find(theirs, port.name) == nullptr)
       throw vp::InputError(
-          fmt::format("the RTL has no port '{}': declare '{}'", port.name, declaration(port)));
+          fmt::format("the RTL has no port '{}': declare '{}'", port.name, declaration_of(port)));
   }
   declare(ours);
   instance(Miter::ours, ours);
@@ -141,7 +155,7 @@ void Miter::declare(const std::vector<Port>& ours) {
   for (const Port& port : ours) {
     if (port.output || port.name == clock_name || is_idle_lane(port.name)) continue;
     inputs_.push_back(port);
-    verilog_ += ",\n  " + declaration(port);
+    verilog_ += ",\n  " + declaration_of(port);
   }
   verilog_ += ",\n  output bad);\n";
   for (const auto& [name, value] : parameters_)

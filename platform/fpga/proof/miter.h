@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <fpga/proof/contract.h>
+#include <fpga/proof/links.h>
 
 namespace platform::proof {
 
@@ -16,10 +17,14 @@ struct Port {
   std::string place;  ///< "own.sv:12"
 };
 
-/// Of the only module in a file of Yosys' write_json. Throws vp::InputError with the place of what
-/// a proof cannot follow: an inout, a register or memory that another clock than the rising `clk`
-/// moves.
+/// Of the only module in a file of Yosys' write_json. Throws vp::InputError with the place of an
+/// inout.
 std::vector<Port> read_ports(const std::filesystem::path& file);
+/// Throws vp::InputError with the place of what a proof cannot follow: a register or memory that
+/// something else moves than the rising edge of the port `clock`.
+void check_clock(const std::filesystem::path& file, const std::string& clock);
+/// "input logic [3:0] x".
+std::string declaration_of(const Port& port);
 
 /// Both modules side by side, as Verilog: module `miter` with the inputs of ours and an output
 /// `bad`, which is high on a clock on which something differs that the contract looks at, while the
@@ -35,6 +40,10 @@ class Miter {
   /// Ours alone: `bad` is a broken rule of one of its streams, and `broken` says which.
   Miter(const Contract& contract, const synthesis::Parameters& parameters,
         const std::vector<Port>& ours);
+
+  /// RTL alone: `bad` is a broken rule of one of its links. Its inputs are `in_NAME`.
+  Miter(const std::vector<Port>& ports, const Pins& pins);
+  static constexpr const char* input_prefix = "in_";
 
   const std::string& verilog() const { return verilog_; }
   /// The inputs but the clock, as `miter` has them.
@@ -58,8 +67,10 @@ class Miter {
   std::string resets() const;
   bool is_idle_lane(const std::string& port) const;
 
+  static const Contract& nothing();
+
   const Contract& contract_;
-  const synthesis::Parameters parameters_;
+  const synthesis::Parameters parameters_ = {};
   std::string verilog_;
   std::vector<Port> inputs_;
   std::vector<std::string> compared_, not_compared_;

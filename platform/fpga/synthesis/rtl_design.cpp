@@ -71,12 +71,32 @@ std::vector<std::string> units_in(const fs::path& source) {
   return units_of(source, code_of(source));
 }
 
+namespace {
+
+/// Whether code of VHDL, in small letters, has an entity with that generic.
+bool has_generic(const std::string& code, const std::string& entity, const std::string& name) {
+  std::smatch found;
+  if (!std::regex_search(code, found, std::regex("\\bentity\\s+" + entity + "\\s+is\\b")))
+    return false;
+  const std::string rest = found.suffix();
+  static const std::regex over(R"(\b(port|end|begin)\b)");
+  const std::string generics =
+      std::regex_search(rest, found, over) ? std::string(found.prefix()) : rest;
+  return std::regex_search(generics, std::regex("\\b" + name + R"(\s*(,[^:;]*)?:)"));
+}
+
+}  // namespace
+
 bool has_parameter(const Design& design, const std::string& name) {
   const std::regex module("\\bmodule\\s+" + design.top + "\\b"),
       assigned("\\b" + name + R"(\s*=[^=])");
   static const std::regex kind(R"(\b(?:local)?param(?:eter)?\b)");
   for (const fs::path& source : design.sources) {
     const std::string text = code_of(source);
+    if (is_vhdl(source)) {
+      if (has_generic(text, vp::lower(design.top), vp::lower(name))) return true;
+      continue;
+    }
     std::smatch found;
     if (!std::regex_search(text, found, module)) continue;
     const std::string rest = found.suffix();

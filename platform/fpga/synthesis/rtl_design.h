@@ -22,6 +22,7 @@ struct Design {
   bool own = false;  ///< comes with markervp
   std::vector<std::filesystem::path> includes = {};  ///< folders, besides those of the sources
   std::vector<std::string> defines = {};             ///< NAME or NAME=VALUE
+  std::vector<std::string> ghdl_options = {};        ///< besides ours, for VHDL
 };
 
 /// The .v, .sv, .vhd and .vhdl files of a folder and of those below it. Throws vp::InputError if

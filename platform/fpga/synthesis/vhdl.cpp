@@ -99,7 +99,8 @@ Design verilog_of(const Design& design, const fs::path& folder) {
   }
   const host::CommandEnd end = host::run_command(
       {"cmake", "-DNAME=markervp", "-DTOP=" + design.top, "-DFILE=" + verilog.string(),
-       "-DGENERICS=" + list_of(generics), "-DSOURCES=" + list_of(sources), "-P", script.string()});
+       "-DGENERICS=" + list_of(generics), "-DOPTIONS=" + list_of(design.ghdl_options),
+       "-DSOURCES=" + list_of(sources), "-P", script.string()});
   if (end.exit_code == host::no_such_command)
     throw vp::InputError("VHDL needs CMake and GHDL: apt-get install cmake ghdl");
   if (end.exit_code != 0) {

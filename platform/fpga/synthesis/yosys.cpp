@@ -130,6 +130,27 @@ bool stumbled_over_simulation(const host::CommandEnd& end) {
                          says("ERROR: syntax error"));
 }
 
+/// What a line has that SystemVerilog knows and Yosys 0.23 does not; "" for anything else.
+std::string unread_construct(const std::string& line) {
+  struct Construct {
+    std::regex form;
+    const char* name;
+  };
+  static const Construct constructs[] = {
+      {std::regex(R"(\bparameter\s+type\b)"), "a parameter that is a type"},
+      {std::regex(R"(\bimport\s+\w+\s*::)"), "an import of a package"},
+      {std::regex(R"(\b(modport|interface|virtual)\b|\b\w+\s*\.\s*\w+\s+\w+\s*[,)])"),
+       "an interface"},
+      {std::regex(R"(\b\w+\s*::\s*\w+\s+\w+)"), "a type of a package"},
+      {std::regex(R"('\{)"), "an assignment pattern"},
+      {std::regex(R"(\b(input|output)\b[^,;]*\b\w+\s*\[)"), "an array as a port"},
+      {std::regex(R"(\b(class|covergroup|bind|clocking|program)\b)"), "a part of test benches"}};
+  for (const Construct& construct : constructs) {
+    if (std::regex_search(line, construct.form)) return construct.name;
+  }
+  return {};
+}
+
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
     text.replace(at, from.size(), to);
@@ -334,7 +355,27 @@ void YosysFolder::refuse(const host::CommandEnd& end) const {
   }
   if (what.find("Module `" + design_.top + "' not found") != std::string::npos)
     refuse_name(design_);
+  const std::string construct =
+      what.find("syntax error") == std::string::npos ? "" : unread_construct(line_at(where));
+  if (!construct.empty()) {
+    synthesis::refuse(design_, where + "Yosys does not read " + construct +
+                                   ": write it in another way, or give what sv2v makes of it "
+                                   "(Verilator and markervp_add_rtl() read it)");
+  }
   synthesis::refuse(design_, where + what);
+}
+
+/// Of a source, as messages name it: "file:line: ". Without one, "".
+std::string YosysFolder::line_at(const std::string& place) const {
+  static const std::regex form(R"(^(.+):(\d+): $)");
+  std::smatch found;
+  std::error_code ignored;
+  if (!std::regex_match(place, found, form) || !fs::is_regular_file(found[1].str(), ignored))
+    return {};
+  std::istringstream lines(vp::read_text(found[1].str(), "source"));
+  std::string line;
+  for (unsigned long i = std::stoul(found[2]); i > 0 && std::getline(lines, line); --i) continue;
+  return line;
 }
 
 }  // namespace platform::synthesis

@@ -48,6 +48,7 @@ class YosysFolder {
   bool read_only_what_is_needed();
   void copy_without_simulation();
   void refuse_endings() const;
+  std::string line_at(const std::string& place) const;
   /// "file:line: " of the first line with both, of those that declare the module if there is one
   /// in them; "" without one.
   std::string place_of(const std::string& word, const std::string& name,

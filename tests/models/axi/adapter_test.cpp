@@ -6,6 +6,7 @@
 #include <numeric>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vp/configuration.h>
@@ -230,10 +231,17 @@ BOOST_FIXTURE_TEST_CASE(lite_has_single_words_one_behind_the_other, Lite) {
     // One clock more than with memory that gives direct access: the target is called in between.
     BOOST_TEST(access(writing, 0x100, buffer.data(), 16) == 6u);
     BOOST_TEST(access(reading, 0x102, buffer.data(), 2) == 3u);
+    BOOST_TEST(access(writing, 0x106, buffer.data(), 2) == 3u);
   });
-  BOOST_TEST(requests.size() == 5u);
-  BOOST_TEST(memory.accesses.size() == 5u);
-  BOOST_TEST(memory.accesses[4].length == 2u);
+  BOOST_TEST(requests.size() == 6u);
+  BOOST_TEST(memory.accesses.size() == 6u);
+  // The target sees whole words (IHI0022 B1.1), of a write the bytes that are written.
+  for (const auto& [number, at] : {std::pair{4u, 0x100u}, {5u, 0x104u}}) {
+    BOOST_TEST(memory.accesses[number].address == at);
+    BOOST_TEST(memory.accesses[number].length == 4u);
+  }
+  BOOST_TEST(memory.bytes[0x105] == buffer[5]);
+  BOOST_TEST(memory.bytes[0x106] == buffer[0]);
 }
 
 BOOST_FIXTURE_TEST_CASE(a_slow_target_holds_its_answer_back, Bench) {

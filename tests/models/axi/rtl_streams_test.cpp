@@ -14,9 +14,12 @@
 #include <vector>
 
 #include <axi/rtl_part.h>
+#include <pl/common/rtl_object.h>
 #include <vp/axi_stream.h>
 #include <vp/clock_scheduler.h>
+#include <vp/configuration.h>
 #include <vp/report.h>
+#include <vp/rule_reports.h>
 #include <xilinx/axis_buffer/axis_buffer.h>
 
 namespace {
@@ -184,8 +187,10 @@ BOOST_FIXTURE_TEST_CASE(bits_of_tuser_that_would_be_lost_are_refused, Bench) {
 namespace {
 
 /// The rules that RTL breaks, which a receiver lets wait and then takes, and a reset ends.
-std::string broken_by(unsigned fault) {
+std::string broken_by(unsigned fault, vp::Configuration& configuration) {
+  const vp::Configuration::Scope scope(configuration);
   kit::Simulation simulation;
+  const vp::ProtocolChecks checks("checks");
   std::ostringstream text;
   vp::ReportRouter reports;
   reports.redirect(text);
@@ -227,6 +232,71 @@ BOOST_AUTO_TEST_CASE(each_violation_of_a_stream_at_the_pins_is_seen) {
                                "TUSER_STABLE ",
                                "TKEEP_GAP ",
                                "TVALID_RESET "};
+  vp::Configuration none;
   for (unsigned fault = 0; fault < std::size(rules); ++fault)
-    BOOST_TEST(broken_by(fault) == rules[fault]);
+    BOOST_TEST(broken_by(fault, none) == rules[fault]);
+}
+
+BOOST_AUTO_TEST_CASE(links_are_not_watched_where_the_configuration_says_so) {
+  vp::Configuration configuration;
+  configuration.set("checks.watch", "false");
+  for (const unsigned fault : {1u, 4u, 7u}) BOOST_TEST(broken_by(fault, configuration) == "");
+  configuration.check_unused();
+}
+
+// Without a path from an input to an output, an edge is one evaluation: that must be found where it
+// is true, and only there.
+BOOST_AUTO_TEST_CASE(outputs_that_are_registers_are_known_as_such) {
+  const auto notes = [](const char* file) {
+    const RtlDescriptor& rtl = pl::open_rtl(file);
+    std::string found;
+    for (std::uint32_t i = 0; i < rtl.note_count; ++i) {
+      const std::string what = rtl.notes[i].what;
+      if (what == "registered" || what == "edge") found += what + ' ' + rtl.notes[i].port + ' ';
+    }
+    return found;
+  };
+  BOOST_TEST(notes(MARKERVP_REGISTERED_RTL) == "registered  edge rst_n ");
+  BOOST_TEST(notes(MARKERVP_STREAMS_RTL) == "");        // TREADY follows TREADY
+  BOOST_TEST(notes(MARKERVP_FAULTY_STREAM_RTL) == "");  // TVALID follows rst_n
+}
+
+BOOST_FIXTURE_TEST_CASE(a_reset_without_a_clock_works_between_edges_and_on_them, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  vp::Signal<bool> reset_n("reset_n", 1, true);
+  vp::AxiStream in("in"), out("out");
+  vp::StreamSource source("source", clock);
+  vp::StreamSink sink("sink", clock);
+  axi::RtlPart part("part", MARKERVP_REGISTERED_RTL, {{"clk", &clock}});
+  part.input("rst_n", reset_n);
+  source.m_axis(in);
+  part.stream_in("in")(in);
+  part.stream_out("out")(out);
+  sink.s_axis(out);
+  vp::Signal<std::uint8_t>& words = part.output<std::uint8_t>("words");
+  kit::BusMaster software("software");
+  kit::MemoryTarget memory("memory", 64);
+  software.socket.bind(memory.socket);
+  for (std::uint32_t i = 0; i < 40; ++i) source.send(i, i % 4 == 3);
+  std::string seen;
+  software.simulate([&] {
+    for (const std::uint64_t at : {103'000u, 200'000u}) {  // between two edges, and on one
+      software.wait_until(at);
+      scheduler.synchronise();
+      seen += std::to_string(words.get()) + ' ';
+      reset_n = false;
+      seen += std::to_string(words.get()) + (out.tvalid.get() ? " valid " : " low ");
+      software.wait_until(at + 21'000);
+      scheduler.synchronise();
+      reset_n = true;
+    }
+    software.wait_until(400'000);
+  });
+  BOOST_TEST(seen == "3 0 low 3 0 low ");
+  // Every third clock a word; those that were under way are lost.
+  std::string data;
+  for (const auto& beat : sink.beats)
+    data += std::to_string(beat.cycle) + ':' + std::to_string(beat.data) + (beat.last ? "! " : " ");
+  BOOST_TEST(data == "3:1 6:2 9:3 15:4! 18:5 25:7 28:8! 31:9 34:10 37:11 40:12! ");
 }

@@ -131,6 +131,8 @@ class AxiStream : public sc_core::sc_module {
   void join();
 
   unsigned bytes_ = 4;
+  std::uint8_t whole_keep_ = 0xF;  ///< tkeep of a beat whose bytes all count
+  bool more_lanes_ = false;        ///< parts_ has further bits of TKEEP, or TSTRB
   std::deque<Part> parts_;
   std::unique_ptr<StreamChecker> checker_;
   AxiStreamMaster* master_ = nullptr;
@@ -269,7 +271,8 @@ class AxiStreamSlave {
       if (link_->fault_ && link_->fault_->drops()) return waiting_ = false;
       ++link_->beats;
       link_->packets.add(tlast.read());
-      if (tkeep.read() != 0xF || !link_->parts_.empty()) link_->check_beat(tlast.read());
+      if ((tkeep.read() & link_->whole_keep_) != link_->whole_keep_ || link_->more_lanes_)
+        link_->check_beat(tlast.read());
       waiting_ = false;
       return true;
     }

@@ -110,6 +110,7 @@ class MmLink : public sc_core::sc_module {
  private:
   friend class RegisterRoute;
 
+  void start_of_simulation() override { watched_ = links_are_watched(); }
   void end_of_simulation() override { checker_.finish(); }
   void invalidate(sc_dt::uint64 first, sc_dt::uint64 last);
   void take_back();
@@ -126,6 +127,7 @@ class MmLink : public sc_core::sc_module {
   }
 
   PayloadChecker checker_{*this};
+  bool watched_ = true;
   std::vector<MmObserver*> observers_;
   std::function<void(std::uint64_t, std::uint64_t)> invalidated_;
 };

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vp/rule_reports.h>
@@ -27,8 +28,12 @@ class StreamChecker final : public SignalListener {
   /// Of a link with both ends, at the start of the simulation.
   StreamChecker(AxiStream& link, const Clock& clock, const std::vector<Reset>& resets);
 
-  /// A beat passes that is not four whole bytes: whether its bytes are what receivers expect.
-  void pass(bool last);
+  /// A beat passes: whether its bytes are what receivers expect.
+  void pass(bool last) {
+    bool whole = *low_keep_.first == low_keep_.second;
+    for (const auto& [place, ones] : lanes_) whole = whole && *place == ones;
+    if (!whole) check_lanes(last);
+  }
   /// The master drops what it offers now, because it is reset.
   void excuse();
   void finish() const { reports_.finish(); }
@@ -59,6 +64,7 @@ class StreamChecker final : public SignalListener {
   void check_stable(const Part& part, std::uint64_t ps);
   void change_reset(std::uint32_t number, std::uint64_t level, std::uint64_t ps);
   std::uint64_t kept(unsigned first_bit, std::uint64_t ps) const;
+  void check_lanes(bool last);
   void check_width();
   void broken(Rule rule, const std::string& what, std::uint64_t value);
 
@@ -69,6 +75,9 @@ class StreamChecker final : public SignalListener {
   std::vector<Part> parts_;
   const std::vector<Reset> resets_;
   std::vector<Level> reset_levels_;
+  /// TKEEP and TSTRB, and what they are where all bytes count.
+  std::vector<std::pair<const std::uint32_t*, std::uint32_t>> lanes_;
+  std::pair<const std::uint8_t*, std::uint8_t> low_keep_;
   bool listens_ = false;                   ///< to TLAST and the parts
   std::optional<std::uint64_t> ended_ps_;  ///< when the wait ended, while it still listens
   std::uint64_t excused_ps_ = ~std::uint64_t{0};

@@ -222,6 +222,40 @@ BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_line_and_what_to_do) {
   check_says(refusal("own"), {"own.vhd:1:", "add the sources of the library 'unisim'", "vendor's"});
 }
 
+BOOST_AUTO_TEST_CASE(a_port_without_bits_is_0) {
+  write("own.vhd",
+        logic +
+            "entity own is\n  generic (wide : natural := 0);\n"
+            "  port (clk : in std_logic; a : in std_logic_vector(wide - 1 downto 0);\n"
+            "    q : out std_logic_vector(wide - 1 downto 0); x : out std_logic);\nend;\n"
+            "architecture rtl of own is\n"
+            "  signal b : std_logic_vector(wide downto 0) := (others => '0');\nbegin\n"
+            "  process (clk) begin\n    if rising_edge(clk) then\n"
+            "      b <= not b(wide) & a;\n    end if;\n  end process;\n"
+            "  q <= b(wide - 1 downto 0);\n  x <= b(wide);\nend;\n");
+  const Figures none = figures("own"), three = figures("own", {{"wide", 3}});
+  BOOST_TEST(none.netlist.cells.ff == 1u);
+  BOOST_TEST(three.netlist.cells.ff == 4u);
+  BOOST_TEST(none.netlist.constant_bits == 1u);  // q
+}
+
+BOOST_AUTO_TEST_CASE(options_reach_ghdl) {
+  write("counter.vhd", counter);
+  Design own = design("Counter");
+  own.ghdl_options = {"--no-such-option"};
+  std::string refused;
+  try {
+    synthesise(own, timing);
+  } catch (const vp::InputError& error) {
+    refused = error.what();
+  }
+  check_says(refused, {"no-such-option"});
+  own.ghdl_options = {"-fexplicit"};
+  BOOST_TEST(synthesise(own, timing).netlist.cells.ff == 8u);
+  own.ghdl_options = {"a;b"};
+  BOOST_CHECK_THROW(synthesise(own, timing), vp::InputError);
+}
+
 BOOST_AUTO_TEST_CASE(a_top_that_is_not_there_or_twice_is_refused) {
   write("counter.vhd", counter);
   check_says(refusal("conter"), {"no module or entity 'conter'", "name Counter"});

@@ -324,6 +324,25 @@ BOOST_AUTO_TEST_CASE(what_is_no_verilog_is_named_with_its_line) {
   check_says(refusal("module own(input logic a);\n  wire b = = a;\nendmodule\n"), {"own.sv:2"});
 }
 
+BOOST_AUTO_TEST_CASE(systemverilog_that_yosys_does_not_read_is_named) {
+  check_says(refusal("module own #(\n  parameter type t = logic) (input t a, output t b);\n"
+                     "  assign b = a;\nendmodule\n"),
+             {"own.sv:2: ", "Yosys does not read a parameter that is a type", "sv2v"});
+  check_says(refusal("package p;\n  localparam N = 1;\nendpackage\n"
+                     "module own import p::*; #(parameter M = 1) (input a, output b);\n"
+                     "  assign b = a;\nendmodule\n"),
+             {"own.sv:4: ", "does not read an import of a package"});
+  check_says(refusal("module own(output [7:0] sub [3:0]);\nendmodule\n"),
+             {"own.sv:1: ", "does not read an array as a port"});
+  check_says(refusal("module own(input a, output b);\n  localparam [1:0] M [0:1] = '{1, 2};\n"
+                     "  assign b = M[a];\nendmodule\n"),
+             {"own.sv:2: ", "does not read an assignment pattern"});
+  const std::string other =
+      refusal("module own(input a, output b);\n  assign b = a a;\nendmodule\n");
+  check_says(other, {"own.sv:2: ", "syntax error"});
+  BOOST_TEST(other.find("does not read") == std::string::npos, other);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_synthesised_is_refused) {
   check_says(refusal("module own(input logic a, output logic y);\n"
                      "  always @* while (a) y = ~y;\nendmodule\n"),
