@@ -100,6 +100,7 @@ void RtlFinder::add_file(const std::string& path) {
     components_[name].push_back(path);
     return;
   }
+  if (!is_vhdl(path)) by_filename_[fs::path(path).filename().string()].push_back(path);
   if (!is_verilog(path) && !is_vhdl(path)) return;
   const std::string text = text_of(path);
   const auto list = words(text, is_vhdl(path) ? "--" : "//");
@@ -213,6 +214,7 @@ std::vector<fs::path> listed_files(const pugi::xml_node& root, const fs::path& f
 RtlSources RtlFinder::find(const Module& module) const {
   RtlSources sources = look(module);
   add_primitives(sources);
+  add_includes(sources);
   for (const Port& port : module.ports) {
     if (port.kind == "rst" && port.direction == 'I' && port.active_high)
       sources.interfaces.push_back(port.name + ": reset high");
@@ -238,6 +240,49 @@ void RtlFinder::add_primitives(RtlSources& sources) const {
       if (std::find(sources.files.begin(), sources.files.end(), model->second) ==
           sources.files.end())
         sources.files.push_back(model->second);
+    }
+  }
+}
+
+/// The file that one includes by this name: beside it, else in any folder. Empty: it is missing.
+std::string RtlFinder::included(const std::string& name, const std::string& by) const {
+  const std::string beside = (fs::path(by).parent_path() / name).lexically_normal().string();
+  std::error_code ignored;
+  if (fs::is_regular_file(beside, ignored)) return beside;
+  const auto known = by_filename_.find(fs::path(name).filename().string());
+  if (known == by_filename_.end()) return {};
+  const std::string ending = "/" + name;
+  for (const std::string& path : known->second) {
+    if (path.size() > ending.size() &&
+        path.compare(path.size() - ending.size(), ending.size(), ending) == 0)
+      return path;
+  }
+  return {};
+}
+
+// Vivado looks in the folder of the file that includes another one, too, and in all of a project.
+void RtlFinder::add_includes(RtlSources& sources) const {
+  static const std::regex directive("`include\\s*\"([^\"]+)\"");
+  std::vector<std::string> files = sources.files;
+  std::set<std::string> seen(files.begin(), files.end()), folders;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string by = files[i];
+    if (is_vhdl(by)) continue;
+    const std::string text = text_of(by), always = unconditional(text, false);
+    for (std::sregex_iterator at(text.begin(), text.end(), directive), end; at != end; ++at) {
+      const std::string name = (*at)[1], path = included(name, by);
+      if (!path.empty()) {
+        if (seen.insert(path).second) files.push_back(path);
+        if (folders.insert(path.substr(0, path.size() - name.size())).second)
+          sources.include_dirs.push_back(path.substr(0, path.size() - name.size()));
+        // Its text is in the file that includes it.
+        sources.files.erase(std::remove(sources.files.begin(), sources.files.end(), path),
+                            sources.files.end());
+      } else if (always.find(at->str()) != std::string::npos) {
+        sources.why = by + " includes '" + name + "', which is missing: name its folder";
+        sources.files.clear();
+        return;
+      }
     }
   }
 }
