@@ -9,7 +9,10 @@
 Names are PYNQ's. Each read and write of a register is an access of the processor with its time; `overlay.session` is the
 markervp.Session behind it (time, signals, waiting). Needs numpy.
 """
+import json
 import pathlib
+import sys
+import types
 import weakref
 
 import markervp
@@ -49,21 +52,114 @@ class MMIO:
         self._overlay._store(self._address(offset), int(data) & 0xFFFFFFFF)
 
 
+class Register:
+    """A register of a register map: an integer that is read anew each time, its bits by number or slice, its fields by name."""
+
+    def __init__(self, overlay, place, fields):
+        object.__setattr__(self, "_place", (overlay, place, fields))
+
+    def __int__(self):
+        overlay, place, _ = self._place
+        return overlay._load(place)
+
+    __index__ = __int__
+
+    def _write(self, value):
+        overlay, place, _ = self._place
+        overlay._store(place, value & 0xFFFFFFFF)
+
+    def _bits(self, bits):
+        if isinstance(bits, slice):  # as in hardware: [7:0]
+            first, last = (0 if bits.stop is None else bits.stop), (31 if bits.start is None else bits.start)
+            first, last = min(first, last), max(first, last)
+        else:
+            first = last = bits
+        if not 0 <= first <= last < 32:
+            raise IndexError(f"bits {last}:{first} are outside of 31:0")
+        return first, last - first + 1
+
+    def __getitem__(self, bits):
+        first, count = self._bits(bits)
+        return int(self) >> first & (1 << count) - 1
+
+    def __setitem__(self, bits, value):
+        first, count = self._bits(bits)
+        mask = (1 << count) - 1
+        if not 0 <= int(value) <= mask:
+            raise ValueError(f"{value} does not fit into {count} bits")
+        self._write(int(self) & ~(mask << first) | int(value) << first)
+
+    def _field(self, name):
+        fields = self._place[2]
+        if name not in fields:
+            raise AttributeError(f"no field '{name}': there are {', '.join(fields) or 'none'}")
+        low, count = fields[name]
+        return slice(low + count - 1, low)
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return self[self._field(name)]
+
+    def __setattr__(self, name, value):
+        self[self._field(name)] = value
+
+    def __repr__(self):
+        value = int(self)
+        fields = ", ".join(f"{name}={value >> low & (1 << count) - 1}" for name, (low, count) in self._place[2].items())
+        return f"Register({fields or f'value={value}'})"
+
+    def __format__(self, form):
+        return format(int(self), form)
+
+    def __hash__(self):
+        return id(self)
+
+    def __bool__(self):
+        return int(self) != 0
+
+    def __invert__(self):
+        return ~int(self)
+
+
+def _as_integer(name):
+    operator = getattr(int, name)
+    return lambda self, other: operator(int(self), int(other) if isinstance(other, Register) else other)
+
+
+for _name in ("eq", "ne", "lt", "le", "gt", "ge", "and", "rand", "or", "ror", "xor", "rxor", "add", "radd", "sub", "rsub", "mul", "rmul",
+              "floordiv", "mod", "lshift", "rlshift", "rshift", "rrshift"):
+    setattr(Register, f"__{_name}__", _as_integer(f"__{_name}__"))
+
+
 class RegisterMap:
-    """The registers of an IP by name: ip.register_map.GPIO_DATA reads, and an assignment writes."""
+    """The registers of an IP by name: ip.register_map.GPIO_DATA reads, and an assignment writes. The names are those of the hand-off
+    where `markervp import` wrote them (registers.json), else those of `markervp map`."""
 
     def __init__(self, overlay, name):
-        object.__setattr__(self, "_place", (overlay, name))
+        described = overlay._registers.get(name, {})
+        object.__setattr__(self, "_place", (overlay, name, described))
+
+    def _register(self, register):
+        overlay, name, described = self._place
+        if register not in described:
+            raise AttributeError(f"{name} has no register '{register}': there are {', '.join(described) or 'none'}")
+        return Register(overlay, overlay.ip_dict[name]["phys_addr"] + described[register]["offset"], described[register]["fields"])
 
     def __getattr__(self, register):
         if register.startswith("_"):
             raise AttributeError(register)
-        overlay, name = self._place
-        return overlay._load(f"{name}.{register}")
+        return self._register(register)
 
     def __setattr__(self, register, value):
-        overlay, name = self._place
-        overlay._store(f"{name}.{register}", int(value))
+        self._register(register)._write(int(value))
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._place[2]]
+
+    def __repr__(self):
+        shown = ",\n".join(f"  {register} = {getattr(self, register)!r}" for register in self._place[2])
+        return f"RegisterMap {{\n{shown}\n}}"
 
 
 class Interrupt:
@@ -274,8 +370,15 @@ class Overlay:
         self._buffers = []  # weak: a buffer that is gone needs nothing
         found = self.session._ask("devices")
         self._settings = found["settings"]
+        described = path.with_name("registers.json")
+        named = json.loads(described.read_text()) if described.exists() else {}
+        self._registers = {one["name"]: {**one["registers"], **named.get(one["name"], {})} for one in found["devices"]}
         self.ip_dict = {one["name"]: {"phys_addr": one["base"], "addr_range": one["size"], "type": one["what"], "fullpath": one["name"]}
                         for one in found["devices"]}
+        self.interrupt_pins = {source.removeprefix("pl.").replace(".", "/"): {"controller": "", "index": number, "raw_irq": number}
+                               for source, number in found["interrupts"].items() if source.startswith("pl.")}
+        self.clock_dict = {number: {"enable": 1, "name": f"fclk{number}_mhz", "mhz": found["clocks"][f"ps.fclk_clk{number}.clk"] / 1e6}
+                           for number in range(4) if f"ps.fclk_clk{number}.clk" in found["clocks"]}
         self._made = {}
         _open.append(self)
 
@@ -405,3 +508,40 @@ _buffer_type = None
 def allocate(shape, dtype="u4", target=None, **_):
     """A buffer of the overlay that was made last, or of `target`."""
     return (target or _current()).allocate(shape, dtype)
+
+
+class Xlnk:
+    """Buffers as PYNQ had them before allocate()."""
+
+    def cma_array(self, shape, dtype="u4", cacheable=0, pointer=None, cache=None):
+        return allocate(shape, dtype)
+
+    def xlnk_reset(self):
+        """Buffers go with their overlay."""
+
+
+def as_pynq(designs):
+    """Lets `import pynq` find this module, so that notebooks run as they are. `designs`: the design of each bitstream, as
+    {"design_1.bit": "mine/"}, or one for all. What PYNQ has beyond Overlay, MMIO, allocate, Xlnk, DefaultIP, pynq.lib.dma.DMA and
+    pynq.lib.AxiGPIO is an ImportError or AttributeError with its name."""
+
+    class Bitstream(Overlay):
+        def __init__(self, bitfile_name, dtbo=None, download=True, ignore_version=False, device=None, gen_cache=False):
+            name = pathlib.Path(bitfile_name).name
+            if isinstance(designs, dict) and name not in designs:
+                raise markervp.Error(f"no design is named for '{name}': as_pynq() has {', '.join(designs)}", None)
+            super().__init__(designs[name] if isinstance(designs, dict) else designs)
+
+    Bitstream.__name__ = "Overlay"
+    modules = {"pynq": {"Overlay": Bitstream, "MMIO": MMIO, "allocate": allocate, "Xlnk": Xlnk, "DefaultIP": DefaultIP, "Interrupt": Interrupt},
+               "pynq.overlay": {"Overlay": Bitstream, "DefaultIP": DefaultIP}, "pynq.mmio": {"MMIO": MMIO},
+               "pynq.interrupt": {"Interrupt": Interrupt}, "pynq.lib": {"DMA": DMA, "AxiGPIO": AxiGPIO}, "pynq.lib.dma": {"DMA": DMA},
+               "pynq.lib.axigpio": {"AxiGPIO": AxiGPIO}}
+    for name, members in modules.items():
+        module = types.ModuleType(name, "markervp in the place of PYNQ")
+        module.__path__ = []
+        module.__dict__.update(members)
+        sys.modules[name] = module
+        outer, _, inner = name.rpartition(".")
+        if outer:
+            setattr(sys.modules[outer], inner, module)

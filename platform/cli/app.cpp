@@ -59,8 +59,9 @@ constexpr const char* config_examples =
     R"(What it prints is a file for --config: with the same --program it makes the same run.)";
 
 constexpr const char* import_help =
-    R"(Writes design.yaml, xparameters.h, pl.dtsi (devices for Linux), CMakeLists.txt, and IMPORT.md,
-which says what became of each part. Importing again brings in what changed in Vivado, and keeps your changes of design.yaml.)";
+    R"(Writes design.yaml, xparameters.h, pl.dtsi (devices for Linux), registers.json (for notebooks),
+CMakeLists.txt, and IMPORT.md, which says what became of each part. Importing again brings in what
+changed in Vivado, and keeps your changes of design.yaml.)";
 
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";

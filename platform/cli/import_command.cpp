@@ -208,6 +208,7 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
     write("drivers/" + name, text);
   }
   write("pl.dtsi", block_design::device_tree(handoff));
+  write("registers.json", block_design::register_names(handoff));
   write("IMPORT.md", block_design::import_report(handoff, design, problem));
   const auto stubs = std::count_if(design.parts.begin(), design.parts.end(), [](const auto& part) {
     return part.kind == block_design::Kind::stub;

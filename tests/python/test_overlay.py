@@ -65,8 +65,68 @@ def test_gpio_and_register_maps(overlay):
     assert leds.channel2.read() == 0b0011
     leds.register_map.GPIO_DATA = 0x81
     assert leds.register_map.GPIO2_DATA == 0x81 and leds.read(8) == 0x81
-    with pytest.raises(markervp.Error, match="GPIO_DATA"):
+    with pytest.raises(AttributeError, match="leds has no register 'GPIO_DATE': there are .*GPIO_DATA, "):
         leds.register_map.GPIO_DATE
+
+
+def test_fields_and_bits_of_registers(overlay):
+    control = overlay.axi_dma_0.register_map.MM2S_DMACR
+    before = int(control)
+    control.IOC_IrqEn = 1
+    assert control.IOC_IrqEn == 1 and int(control) == before | 1 << 12 and control[12] == 1
+    control[12] = 0
+    assert control == before and control[12:12] == 0 and control & 1 == before & 1
+    assert f"{control:#x}" == f"{before:#x}" and "IOC_IrqEn=0" in repr(control)
+    assert "MM2S_DMACR = Register(" in repr(overlay.axi_dma_0.register_map)
+    with pytest.raises(AttributeError, match="no field 'IOC': there are .*IOC_IrqEn"):
+        control.IOC
+    with pytest.raises(AttributeError, match="no field 'IOC'"):
+        control.IOC = 1
+    with pytest.raises(ValueError, match="2 does not fit into 1 bits"):
+        control.IOC_IrqEn = 2
+    with pytest.raises(IndexError):
+        control[32]
+
+
+def test_names_of_the_hand_off_go_first(tmp_path):
+    folder = pathlib.Path(__file__).parent
+    (tmp_path / "design.yaml").write_text((folder / "overlay.yaml").read_text())
+    (tmp_path / "registers.json").write_text('{"leds": {"a": {"offset": 8, "fields": {"LOW": [0, 4]}}}}')
+    with markervp.Overlay(tmp_path) as other:
+        other.leds.register_map.GPIO_DATA = 0x35
+        assert other.leds.register_map.a == 0x35 and other.leds.register_map.a.LOW == 5
+        assert other.leds.register_map.GPIO2_DATA == 0x35
+
+
+def test_interrupts_and_clocks_by_name(overlay):
+    assert overlay.interrupt_pins["axi_dma_0/s2mm_introut"]["raw_irq"] == 61
+    assert overlay.clock_dict[0]["mhz"] == 100
+
+
+def test_a_notebook_runs_as_it_is():
+    markervp.as_pynq({"loop.bit": pathlib.Path(__file__).with_name("overlay.yaml")})
+    names = {}
+    exec("""
+import numpy as np
+import pynq.lib.dma
+from pynq import MMIO, Overlay, Xlnk, allocate
+overlay = Overlay("/home/xilinx/jupyter_notebooks/loop.bit")
+sent, came = allocate(shape=(8,), dtype=np.uint32, cacheable=1), Xlnk().cma_array((8,), np.uint32)
+np.copyto(sent, np.arange(8, dtype=np.uint32))
+dma = overlay.axi_dma_0
+assert isinstance(dma, pynq.lib.dma.DMA)
+dma.recvchannel.transfer(came)
+dma.sendchannel.transfer(sent)
+dma.sendchannel.wait()
+dma.recvchannel.wait()
+MMIO(overlay.ip_dict["leds"]["phys_addr"], 16).write(0, 7)
+""", names)
+    assert list(names["came"]) == list(range(8)) and names["overlay"].leds.read(8) == 7
+    names["overlay"].close()
+    with pytest.raises(markervp.Error, match="no design is named for 'other.bit': as_pynq.. has loop.bit"):
+        exec("Overlay('other.bit')", names)
+    with pytest.raises(ImportError, match="BaseOverlay|pynq.overlays"):
+        exec("from pynq.overlays.base import BaseOverlay", names)
 
 
 def test_registers_at_an_address(overlay):

@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "input_error.h"
@@ -243,6 +244,24 @@ BOOST_AUTO_TEST_CASE(devices_for_linux) {
   BOOST_TEST(has(tree,
                  "\t\t\tdma-channel@40400030 {\n"
                  "\t\t\t\tcompatible = \"xlnx,axi-dma-s2mm-channel\";\n"));
+}
+
+BOOST_AUTO_TEST_CASE(registers_by_the_names_of_the_hand_off) {
+  const std::string block =
+      "<ADDRESSBLOCKS><ADDRESSBLOCK INTERFACE=\"S00_AXI\"><REGISTERS><REGISTER NAME=\"CTRL\">"
+      "<PROPERTY NAME=\"ADDRESS_OFFSET\" VALUE=\"0x10\"/><FIELDS><FIELD NAME=\"MODE\">"
+      "<PROPERTY NAME=\"BIT_OFFSET\" VALUE=\"4\"/><PROPERTY NAME=\"BIT_WIDTH\" VALUE=\"3\"/>"
+      "</FIELD></FIELDS></REGISTER></REGISTERS></ADDRESSBLOCK></ADDRESSBLOCKS>";
+  const std::string text = kit::small_handoff().text();
+  const std::size_t own = text.find("FULLNAME=\"/own_0\"");
+  const std::size_t inside = text.find('>', own) + 1;
+  const auto names = [&](const std::string& hwh) {
+    return register_names(platform::handoff::read_hwh(hwh, "small.hwh"));
+  };
+  BOOST_TEST(names(text) == "{\n}\n");
+  const auto found =
+      nlohmann::json::parse(names(text.substr(0, inside) + block + text.substr(inside)));
+  BOOST_TEST(found.dump() == R"({"own_0":{"CTRL":{"fields":{"MODE":[4,3]},"offset":16}}})");
 }
 
 BOOST_AUTO_TEST_CASE(a_picture_of_the_design) {
