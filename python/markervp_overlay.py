@@ -178,12 +178,13 @@ class Interrupt:
 
 
 class DefaultIP:
-    """An IP of the overlay: its registers by offset and by name, and its interrupt."""
+    """An IP of the overlay: its registers by offset and by name, and its interrupt. `description`: its entry of ip_dict."""
 
-    def __init__(self, overlay, name, description):
-        self._overlay, self._name = overlay, name
-        self.mmio = MMIO(description["phys_addr"], description["addr_range"], overlay)
-        self.register_map = RegisterMap(overlay, name)
+    def __init__(self, description, overlay=None):
+        self._overlay, self._name = overlay or _current(), description["fullpath"]
+        self.description = description
+        self.mmio = MMIO(description["phys_addr"], description["addr_range"], self._overlay)
+        self.register_map = RegisterMap(self._overlay, self._name)
 
     def read(self, offset=0):
         return self.mmio.read(offset)
@@ -253,6 +254,24 @@ class _Channel:
             array.flush()
         self._ip.write(self._at + 0x18, (array.physical_address + start) & 0xFFFFFFFF)
         self._ip.write(self._at + 0x28, count)
+        if not self._flush:
+            receiving = self._ip._overlay._receiving
+            if self not in receiving:
+                receiving.append(self)
+
+    def _let_end(self, step=1e-6):
+        """Waits for a transfer as long as Python needs on the board from one call to the next. Whether it has ended."""
+        session = self._ip._overlay.session
+        end = session.time + _python_s
+        while not self.idle and not self.error and session.time < end:
+            session.run(f"{step * 1e6:g} us")
+            step *= 2
+        self._buffer.invalidate()
+        return self.idle or self.error
+
+    def _fills(self, buffer):
+        first, other = self._buffer.physical_address, buffer.physical_address
+        return first < other + buffer.nbytes and other < first + self._buffer.nbytes
 
     def wait(self, timeout=10.0):
         """Until it is idle; `timeout` in simulated seconds."""
@@ -279,9 +298,9 @@ class _Channel:
 class DMA(DefaultIP):
     """AXI DMA: sendchannel and recvchannel, as far as it has them."""
 
-    def __init__(self, overlay, name, description):
-        super().__init__(overlay, name, description)
-        settings = overlay._settings
+    def __init__(self, description, overlay=None):
+        super().__init__(description, overlay)
+        settings, name = self._overlay._settings, self._name
         has = {way: settings.get(f"pl.{name}.include_{way}", "true") == "true" for way in ("mm2s", "s2mm", "sg")}
         if has["sg"]:
             raise markervp.Error(f"{name} is built with scatter-gather, which this driver does not take: read() and write() reach "
@@ -341,8 +360,8 @@ class _GpioChannel:
 class AxiGPIO(DefaultIP):
     """AXI GPIO: channel1 and channel2; read() and write() are those of registers."""
 
-    def __init__(self, overlay, name, description):
-        super().__init__(overlay, name, description)
+    def __init__(self, description, overlay=None):
+        super().__init__(description, overlay)
         self.channel1, self.channel2 = _GpioChannel(self, 0x00), _GpioChannel(self, 0x08)
 
     def __getitem__(self, pins):
@@ -352,7 +371,52 @@ class AxiGPIO(DefaultIP):
         (self.channel1 if channel == 1 else self.channel2).setdirection(direction)
 
 
+_python_s = 0.01  # of simulated time
+
 _drivers = {"AXI DMA": DMA, "AXI GPIO": AxiGPIO}
+
+
+class GPIO:
+    """A pin of the PS between it and the logic (EMIO): GPIO(GPIO.get_gpio_pin(3), "out").write(1)."""
+
+    _mio_pins, _registers = 54, 0xE000A000
+
+    def __init__(self, gpio_index, direction):
+        if direction not in ("in", "out"):
+            raise ValueError("Direction should be 'in' or 'out'.")
+        if not self._mio_pins <= gpio_index < self._mio_pins + 64:
+            raise ValueError(f"pin {gpio_index} is none of the 64 that lead to the logic: GPIO.get_gpio_pin(0) is the first")
+        self.index, self.direction = gpio_index, direction
+        bank, self._bit = divmod(gpio_index - self._mio_pins, 32)
+        self._bank = 2 + bank
+        self._mmio = MMIO(self._registers, 0x1000)
+        for at in (0x204, 0x208) if direction == "out" else (0x204,):  # DIRM, OEN
+            word = self._mmio.read(at + 0x40 * self._bank) & ~(1 << self._bit)
+            self._mmio.write(at + 0x40 * self._bank, word | (direction == "out") << self._bit)
+
+    @staticmethod
+    def get_gpio_pin(gpio_user_index, target_label=None):
+        return GPIO._mio_pins + gpio_user_index
+
+    @property
+    def path(self):
+        return f"/sys/class/gpio/gpio{self.index}/"
+
+    def read(self):
+        if self.direction != "in":
+            raise AttributeError("Cannot read GPIO output.")
+        return self._mmio.read(0x60 + 4 * self._bank) >> self._bit & 1  # DATA_RO
+
+    def write(self, value):
+        if self.direction != "out":
+            raise AttributeError("Cannot write GPIO input.")
+        if value not in (0, 1):
+            raise ValueError("Can only write integer 0 or 1.")
+        half, bit = divmod(self._bit, 16)  # MASK_DATA: a mask of 0 lets a bit change
+        self._mmio.write(8 * self._bank + 4 * half, (0xFFFF & ~(1 << bit)) << 16 | int(value) << bit)
+
+    def release(self):
+        """The pin stays as it is."""
 
 
 class Overlay:
@@ -368,6 +432,8 @@ class Overlay:
         self.session = markervp.Session("notebook", set=values, options=options, **session)
         self._next = None
         self._buffers = []  # weak: a buffer that is gone needs nothing
+        self._receiving = []  # channels whose transfers may not have ended
+        self._is_new = False  # a register was written since Python looked at a buffer
         found = self.session._ask("devices")
         self._settings = found["settings"]
         described = path.with_name("registers.json")
@@ -407,7 +473,7 @@ class Overlay:
         if name not in self._made:
             description = self.ip_dict[name]
             driver = next((made for what, made in _drivers.items() if description["type"].startswith(what)), DefaultIP)
-            self._made[name] = driver(self, name, description)
+            self._made[name] = driver(description, self)
         return self._made[name]
 
     def __dir__(self):
@@ -423,6 +489,15 @@ class Overlay:
         for buffer in self._alive():
             buffer._flush_changes()
         self.session._ask("access", at=at, value=value)
+        self._is_new = True
+
+    def _catch_up(self, buffer):
+        filling = [one for one in self._receiving if one._fills(buffer)] if self._is_new else []
+        for channel in filling:
+            if channel._let_end():
+                self._receiving.remove(channel)
+            else:
+                self._is_new = False
 
     def _invalidate(self):
         for buffer in self._alive():
@@ -483,13 +558,51 @@ def _buffer_class():
                     "memory", at=self.physical_address + at, bytes=min(_memory_part, self.nbytes - at))["hex"])
                     for at in range(0, self.nbytes, _memory_part))
                 self._known = data
-                numpy.copyto(self, numpy.frombuffer(data, dtype=self.dtype).reshape(self.shape))
+                numpy.copyto(self.view(numpy.ndarray), numpy.frombuffer(data, dtype=self.dtype).reshape(self.shape))
 
             def _flush_changes(self):
                 data = self.tobytes()
                 if data != self._known:
                     changed = numpy.flatnonzero(numpy.frombuffer(data, "u1") != numpy.frombuffer(self._known, "u1"))
                     self._put(data, int(changed[0]), int(changed[-1]) + 1)
+
+            # Python on the board is slow: before it looks at a buffer, a transfer that was started has ended.
+            def _look(self):
+                if self._overlay is not None:
+                    self._overlay._catch_up(self)
+
+            def __getitem__(self, place):
+                self._look()
+                return super().__getitem__(place)
+
+            def __iter__(self):
+                self._look()
+                return super().__iter__()
+
+            @staticmethod
+            def _look_at_all(arguments):
+                for one in arguments:
+                    if isinstance(one, PynqBuffer):
+                        one._look()
+                    elif isinstance(one, (list, tuple)):
+                        PynqBuffer._look_at_all(one)
+
+            def __array_function__(self, function, kinds, arguments, named):
+                self._look_at_all(arguments)
+                return super().__array_function__(function, kinds, arguments, named)
+
+            def __array_ufunc__(self, function, method, *inputs, **named):
+                self._look_at_all(inputs)
+                plain = [one.view(numpy.ndarray) if isinstance(one, PynqBuffer) else one for one in inputs]
+                into = named.get("out")
+                if into is not None:
+                    named["out"] = tuple(one.view(numpy.ndarray) if isinstance(one, PynqBuffer) else one for one in into)
+                result = getattr(function, method)(*plain, **named)
+                return into[0] if into is not None and len(into) == 1 else result
+
+            def tolist(self):
+                self._look()
+                return super().tolist()
 
             sync_to_device, sync_from_device = flush, invalidate
 
@@ -522,7 +635,7 @@ class Xlnk:
 
 def as_pynq(designs):
     """Lets `import pynq` find this module, so that notebooks run as they are. `designs`: the design of each bitstream, as
-    {"design_1.bit": "mine/"}, or one for all. What PYNQ has beyond Overlay, MMIO, allocate, Xlnk, DefaultIP, pynq.lib.dma.DMA and
+    {"design_1.bit": "mine/"}, or one for all. What PYNQ has beyond Overlay, MMIO, allocate, Xlnk, GPIO, DefaultIP, pynq.lib.dma.DMA and
     pynq.lib.AxiGPIO is an ImportError or AttributeError with its name."""
 
     class Bitstream(Overlay):
@@ -533,9 +646,10 @@ def as_pynq(designs):
             super().__init__(designs[name] if isinstance(designs, dict) else designs)
 
     Bitstream.__name__ = "Overlay"
-    modules = {"pynq": {"Overlay": Bitstream, "MMIO": MMIO, "allocate": allocate, "Xlnk": Xlnk, "DefaultIP": DefaultIP, "Interrupt": Interrupt},
+    modules = {"pynq": {"Overlay": Bitstream, "MMIO": MMIO, "allocate": allocate, "Xlnk": Xlnk, "DefaultIP": DefaultIP, "Interrupt": Interrupt,
+                        "GPIO": GPIO},
                "pynq.overlay": {"Overlay": Bitstream, "DefaultIP": DefaultIP}, "pynq.mmio": {"MMIO": MMIO},
-               "pynq.interrupt": {"Interrupt": Interrupt}, "pynq.lib": {"DMA": DMA, "AxiGPIO": AxiGPIO}, "pynq.lib.dma": {"DMA": DMA},
+               "pynq.gpio": {"GPIO": GPIO}, "pynq.interrupt": {"Interrupt": Interrupt}, "pynq.lib": {"DMA": DMA, "AxiGPIO": AxiGPIO}, "pynq.lib.dma": {"DMA": DMA},
                "pynq.lib.axigpio": {"AxiGPIO": AxiGPIO}}
     for name, members in modules.items():
         module = types.ModuleType(name, "markervp in the place of PYNQ")

@@ -3,6 +3,7 @@ import asyncio
 import pathlib
 
 import markervp
+import markervp_overlay
 import pytest
 
 numpy = pytest.importorskip("numpy")
@@ -32,6 +33,49 @@ def test_dma_brings_back_what_it_sends_and_takes_time(overlay):
     assert (came == sent).all() and came[999] == 6993
     assert dma.recvchannel.transferred == 4000
     assert 10e-6 < overlay.session.time - before < 30e-6, "1000 words at 100 MHz"
+
+
+@pytest.mark.parametrize("look", [lambda came: came[63], lambda came: numpy.max(came), lambda came: (came + 0)[63], lambda came: list(came)[63],
+                                  lambda came: came.tolist()[63]])
+def test_a_transfer_has_ended_before_python_looks_at_its_buffer(overlay, look):
+    sent, came = overlay.allocate((64,)), overlay.allocate((64,))
+    sent[:] = range(64)
+    overlay.axi_dma_0.recvchannel.transfer(came)
+    overlay.axi_dma_0.sendchannel.transfer(sent)
+    assert numpy.array_equal(sent[:2], [0, 1]), "of another buffer"
+    assert look(came) == 63
+    assert numpy.array_equal(sent, came)
+    came += 1
+    assert came[63] == 64 and type(came) is type(sent)
+
+
+def test_a_transfer_that_does_not_end_costs_ten_milliseconds(overlay):
+    with markervp.Overlay(pathlib.Path(__file__).with_name("overlay.yaml")) as other:
+        came = other.allocate((64,))
+        other.axi_dma_0.recvchannel.transfer(came)
+        before = other.session.time
+        assert came[0] == 0 and 10e-3 <= other.session.time - before < 40e-3
+        before = other.session.time
+        assert came[0] == 0 and other.session.time == before
+
+
+def test_pins_between_ps_and_logic(overlay):
+    pin = markervp_overlay.GPIO(markervp_overlay.GPIO.get_gpio_pin(33), "out")
+    for value in (1, 0):
+        pin.write(value)
+        assert overlay.session._ask("access", at=0xE000A000 + 0x4C)["value"] >> 1 & 1 == value  # DATA of bank 3
+    assert markervp_overlay.GPIO(markervp_overlay.GPIO.get_gpio_pin(2), "in").read() == 0
+    with pytest.raises(AttributeError):
+        pin.read()
+    with pytest.raises(ValueError, match="pin 7 is none of the 64"):
+        markervp_overlay.GPIO(7, "in")
+
+
+def test_a_driver_is_made_from_its_description(overlay):
+    leds = markervp_overlay.AxiGPIO(overlay.ip_dict["leds"])
+    leds.setdirection("out")
+    leds[0:4].write(9)
+    assert overlay.leds.read(8) & 15 == 9
 
 
 def test_a_part_of_a_buffer_is_transferred(overlay):
