@@ -297,6 +297,11 @@ void add_import(CLI::App& app, ImportOptions& target) {
                    "sources of its PS program: main.c …, or a folder with them")
       ->type_name("FILE");
   command
+      ->add_option("--device", target.device,
+                   "import it as for this chip, as xc7z020-1, whose size, speed and power the "
+                   "verdict has then")
+      ->type_name("NAME");
+  command
       ->add_option("--block-design", target.block_design, "which one, of an archive with several")
       ->type_name("NAME");
   command->add_flag("--shelf", target.shelf,
