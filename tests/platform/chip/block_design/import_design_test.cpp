@@ -82,6 +82,20 @@ BOOST_AUTO_TEST_CASE(the_address_says_by_which_port_the_processor_gets_there) {
   BOOST_TEST(has(import_design(read_hwh(text, "small.hwh")).text, "ps.M_AXI_GP1:"));
 }
 
+BOOST_AUTO_TEST_CASE(segments_of_a_master_without_a_bus_are_left_out) {
+  std::string text = kit::small_handoff().text();
+  const std::string gp0 = kit::bus("MASTER", "M_AXI_GP0", "ps_M_AXI_GP0");
+  const std::string own = kit::segment("M_AXI_GP0", "own_0", "S00_AXI", "0x43C00000", "0x43C0FFFF");
+  text = kit::replaced(text, gp0, gp0 + kit::bus("MASTER", "M_AXI_GP1", "__NOC__"));
+  text = kit::replaced(
+      text, own, own + kit::segment("M_AXI_GP1", "own_0", "S00_AXI", "0x83C00000", "0x83C0FFFF"));
+  const ImportedDesign design = import_design(read_hwh(text, "small.hwh"));
+  BOOST_TEST(has(design.text, "own_0.S00_AXI: [0x43C00000, 64 KiB]"));
+  BOOST_TEST(!has(design.text, "0x83C00000"));
+  BOOST_TEST(design.notes.back().find("own_0 at 0x83C00000 for ps.M_AXI_GP1, which is joined to "
+                                      "nothing") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_small_memory_has_its_buffers_in_its_upper_half) {
   const std::string small =
       replaced(kit::small_handoff().text(), "0x1FFFFFFF\"/>", "0x0FFFFFFF\"/>");
@@ -256,7 +270,7 @@ BOOST_AUTO_TEST_CASE(registers_by_the_names_of_the_hand_off) {
   const std::size_t own = text.find("FULLNAME=\"/own_0\"");
   const std::size_t inside = text.find('>', own) + 1;
   const auto names = [&](const std::string& hwh) {
-    return register_names(platform::handoff::read_hwh(hwh, "small.hwh"));
+    return register_names(read_hwh(hwh, "small.hwh"));
   };
   BOOST_TEST(names(text) == "{\n}\n");
   const auto found =
