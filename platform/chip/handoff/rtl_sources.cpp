@@ -108,7 +108,12 @@ void RtlFinder::add_file(const std::string& path) {
     const bool declares = is_vhdl(path)
                               ? list[i] == "entity" && i + 2 < list.size() && list[i + 2] == "is"
                               : list[i] == "module" && (i == 0 || list[i - 1] != "end");
-    if (declares) modules_.emplace(list[i + 1], path);
+    if (!declares) continue;
+    const auto [known, is_new] = modules_.emplace(list[i + 1], path);
+    if (is_new || known->second == path) continue;
+    std::vector<std::string>& files = declared_twice_[known->first];
+    if (files.empty()) files.push_back(known->second);
+    if (files.back() != path) files.push_back(path);
   }
 }
 
@@ -378,6 +383,25 @@ RtlSources RtlFinder::packaged(const Module& module, const std::string& componen
   return sources;
 }
 
+/// Where a module is that `user` names, empty if nowhere. Projects keep copies of a module: of
+/// several files the one that is taken already, else the one nearest to it.
+std::string RtlFinder::file_of(const std::string& name, const std::string& user,
+                               const std::vector<std::string>& taken) const {
+  const auto only = modules_.find(name);
+  if (only == modules_.end()) return {};
+  const auto several = declared_twice_.find(name);
+  if (several == declared_twice_.end()) return only->second;
+  const auto shared = [&user](const std::string& path) {
+    return std::mismatch(path.begin(), path.end(), user.begin(), user.end()).first - path.begin();
+  };
+  const std::string* best = &several->second.front();
+  for (const std::string& path : several->second) {
+    if (std::find(taken.begin(), taken.end(), path) != taken.end()) return path;
+    if (shared(path) > shared(*best)) best = &path;
+  }
+  return *best;
+}
+
 // A file that names a module of another one needs it.
 RtlSources RtlFinder::by_name(const Module& module) const {
   RtlSources sources;
@@ -393,9 +417,8 @@ RtlSources RtlFinder::by_name(const Module& module) const {
   for (std::size_t i = 0; i < sources.files.size(); ++i) {
     const std::string file = sources.files[i], text = text_of(file);
     for (const std::string_view word : words(text, is_vhdl(file) ? "--" : "//")) {
-      const auto used = modules_.find(std::string(word));
-      if (used != modules_.end() && seen.insert(used->second).second)
-        sources.files.push_back(used->second);
+      const std::string used = file_of(std::string(word), file, sources.files);
+      if (!used.empty() && seen.insert(used).second) sources.files.push_back(used);
     }
   }
   return sources;

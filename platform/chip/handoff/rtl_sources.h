@@ -39,14 +39,18 @@ class RtlFinder {
   RtlSources look(const Module& module) const;
   void add_primitives(RtlSources& sources) const;
   void add_includes(RtlSources& sources) const;
+  std::string file_of(const std::string& name, const std::string& user,
+                      const std::vector<std::string>& taken) const;
   std::string included(const std::string& name, const std::string& by) const;
   void add_file(const std::string& path);
   RtlSources packaged(const Module& module, const std::string& component) const;
   RtlSources by_name(const Module& module) const;
 
   bool empty_;
-  std::map<std::string, std::vector<std::string>> components_;   ///< by vendor:library:name
-  std::map<std::string, std::string> modules_;                   ///< name: file
+  std::map<std::string, std::vector<std::string>> components_;  ///< by vendor:library:name
+  std::map<std::string, std::string> modules_;                  ///< name: its first file
+  /// Of names that are declared in several files all of these.
+  std::map<std::string, std::vector<std::string>> declared_twice_;
   std::map<std::string, std::vector<std::string>> by_filename_;  ///< what Verilog may include
 };
 
