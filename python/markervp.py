@@ -35,9 +35,12 @@ _points_failed = 4
 
 
 def __getattr__(name):  # a notebook's names, which other programs do not load
-    if name in ("MMIO", "Overlay", "allocate", "as_pynq"):
+    if name in ("MMIO", "Overlay", "allocate"):
         import markervp_overlay
         return getattr(markervp_overlay, name)
+    if name == "as_pynq":
+        import markervp_pynq
+        return markervp_pynq.as_pynq
     raise AttributeError(f"module 'markervp' has no attribute '{name}'")
 
 

@@ -11,11 +11,10 @@ markervp.Session behind it (time, signals, waiting). Needs numpy.
 """
 import json
 import pathlib
-import sys
-import types
 import weakref
 
 import markervp
+from markervp_registers import RegisterMap
 
 _open = []  # overlays; MMIO and allocate() are for the one that was made last
 
@@ -50,116 +49,6 @@ class MMIO:
                 self.write(offset + at, int.from_bytes(data[at:at + 4], "little"))
             return
         self._overlay._store(self._address(offset), int(data) & 0xFFFFFFFF)
-
-
-class Register:
-    """A register of a register map: an integer that is read anew each time, its bits by number or slice, its fields by name."""
-
-    def __init__(self, overlay, place, fields):
-        object.__setattr__(self, "_place", (overlay, place, fields))
-
-    def __int__(self):
-        overlay, place, _ = self._place
-        return overlay._load(place)
-
-    __index__ = __int__
-
-    def _write(self, value):
-        overlay, place, _ = self._place
-        overlay._store(place, value & 0xFFFFFFFF)
-
-    def _bits(self, bits):
-        if isinstance(bits, slice):  # as in hardware: [7:0]
-            first, last = (0 if bits.stop is None else bits.stop), (31 if bits.start is None else bits.start)
-            first, last = min(first, last), max(first, last)
-        else:
-            first = last = bits
-        if not 0 <= first <= last < 32:
-            raise IndexError(f"bits {last}:{first} are outside of 31:0")
-        return first, last - first + 1
-
-    def __getitem__(self, bits):
-        first, count = self._bits(bits)
-        return int(self) >> first & (1 << count) - 1
-
-    def __setitem__(self, bits, value):
-        first, count = self._bits(bits)
-        mask = (1 << count) - 1
-        if not 0 <= int(value) <= mask:
-            raise ValueError(f"{value} does not fit into {count} bits")
-        self._write(int(self) & ~(mask << first) | int(value) << first)
-
-    def _field(self, name):
-        fields = self._place[2]
-        if name not in fields:
-            raise AttributeError(f"no field '{name}': there are {', '.join(fields) or 'none'}")
-        low, count = fields[name]
-        return slice(low + count - 1, low)
-
-    def __getattr__(self, name):
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return self[self._field(name)]
-
-    def __setattr__(self, name, value):
-        self[self._field(name)] = value
-
-    def __repr__(self):
-        value = int(self)
-        fields = ", ".join(f"{name}={value >> low & (1 << count) - 1}" for name, (low, count) in self._place[2].items())
-        return f"Register({fields or f'value={value}'})"
-
-    def __format__(self, form):
-        return format(int(self), form)
-
-    def __hash__(self):
-        return id(self)
-
-    def __bool__(self):
-        return int(self) != 0
-
-    def __invert__(self):
-        return ~int(self)
-
-
-def _as_integer(name):
-    operator = getattr(int, name)
-    return lambda self, other: operator(int(self), int(other) if isinstance(other, Register) else other)
-
-
-for _name in ("eq", "ne", "lt", "le", "gt", "ge", "and", "rand", "or", "ror", "xor", "rxor", "add", "radd", "sub", "rsub", "mul", "rmul",
-              "floordiv", "mod", "lshift", "rlshift", "rshift", "rrshift"):
-    setattr(Register, f"__{_name}__", _as_integer(f"__{_name}__"))
-
-
-class RegisterMap:
-    """The registers of an IP by name: ip.register_map.GPIO_DATA reads, and an assignment writes. The names are those of the hand-off
-    where `markervp import` wrote them (registers.json), else those of `markervp map`."""
-
-    def __init__(self, overlay, name):
-        described = overlay._registers.get(name, {})
-        object.__setattr__(self, "_place", (overlay, name, described))
-
-    def _register(self, register):
-        overlay, name, described = self._place
-        if register not in described:
-            raise AttributeError(f"{name} has no register '{register}': there are {', '.join(described) or 'none'}")
-        return Register(overlay, overlay.ip_dict[name]["phys_addr"] + described[register]["offset"], described[register]["fields"])
-
-    def __getattr__(self, register):
-        if register.startswith("_"):
-            raise AttributeError(register)
-        return self._register(register)
-
-    def __setattr__(self, register, value):
-        self._register(register)._write(int(value))
-
-    def __dir__(self):
-        return [*super().__dir__(), *self._place[2]]
-
-    def __repr__(self):
-        shown = ",\n".join(f"  {register} = {getattr(self, register)!r}" for register in self._place[2])
-        return f"RegisterMap {{\n{shown}\n}}"
 
 
 class Interrupt:
@@ -376,49 +265,6 @@ _python_s = 0.01  # of simulated time
 _drivers = {"AXI DMA": DMA, "AXI GPIO": AxiGPIO}
 
 
-class GPIO:
-    """A pin of the PS between it and the logic (EMIO): GPIO(GPIO.get_gpio_pin(3), "out").write(1)."""
-
-    _mio_pins, _registers = 54, 0xE000A000
-
-    def __init__(self, gpio_index, direction):
-        if direction not in ("in", "out"):
-            raise ValueError("Direction should be 'in' or 'out'.")
-        if not self._mio_pins <= gpio_index < self._mio_pins + 64:
-            raise ValueError(f"pin {gpio_index} is none of the 64 that lead to the logic: GPIO.get_gpio_pin(0) is the first")
-        self.index, self.direction = gpio_index, direction
-        bank, self._bit = divmod(gpio_index - self._mio_pins, 32)
-        self._bank = 2 + bank
-        self._mmio = MMIO(self._registers, 0x1000)
-        for at in (0x204, 0x208) if direction == "out" else (0x204,):  # DIRM, OEN
-            word = self._mmio.read(at + 0x40 * self._bank) & ~(1 << self._bit)
-            self._mmio.write(at + 0x40 * self._bank, word | (direction == "out") << self._bit)
-
-    @staticmethod
-    def get_gpio_pin(gpio_user_index, target_label=None):
-        return GPIO._mio_pins + gpio_user_index
-
-    @property
-    def path(self):
-        return f"/sys/class/gpio/gpio{self.index}/"
-
-    def read(self):
-        if self.direction != "in":
-            raise AttributeError("Cannot read GPIO output.")
-        return self._mmio.read(0x60 + 4 * self._bank) >> self._bit & 1  # DATA_RO
-
-    def write(self, value):
-        if self.direction != "out":
-            raise AttributeError("Cannot write GPIO input.")
-        if value not in (0, 1):
-            raise ValueError("Can only write integer 0 or 1.")
-        half, bit = divmod(self._bit, 16)  # MASK_DATA: a mask of 0 lets a bit change
-        self._mmio.write(8 * self._bank + 4 * half, (0xFFFF & ~(1 << bit)) << 16 | int(value) << bit)
-
-    def release(self):
-        """The pin stays as it is."""
-
-
 class Overlay:
     """A design in YAML with Python in the place of the processor. `design`: its file, or the folder of an import. `set`, `options`:
     as of markervp.Session. Use it with `with`, or close() it."""
@@ -621,41 +467,3 @@ _buffer_type = None
 def allocate(shape, dtype="u4", target=None, **_):
     """A buffer of the overlay that was made last, or of `target`."""
     return (target or _current()).allocate(shape, dtype)
-
-
-class Xlnk:
-    """Buffers as PYNQ had them before allocate()."""
-
-    def cma_array(self, shape, dtype="u4", cacheable=0, pointer=None, cache=None):
-        return allocate(shape, dtype)
-
-    def xlnk_reset(self):
-        """Buffers go with their overlay."""
-
-
-def as_pynq(designs):
-    """Lets `import pynq` find this module, so that notebooks run as they are. `designs`: the design of each bitstream, as
-    {"design_1.bit": "mine/"}, or one for all. What PYNQ has beyond Overlay, MMIO, allocate, Xlnk, GPIO, DefaultIP, pynq.lib.dma.DMA and
-    pynq.lib.AxiGPIO is an ImportError or AttributeError with its name."""
-
-    class Bitstream(Overlay):
-        def __init__(self, bitfile_name, dtbo=None, download=True, ignore_version=False, device=None, gen_cache=False):
-            name = pathlib.Path(bitfile_name).name
-            if isinstance(designs, dict) and name not in designs:
-                raise markervp.Error(f"no design is named for '{name}': as_pynq() has {', '.join(designs)}", None)
-            super().__init__(designs[name] if isinstance(designs, dict) else designs)
-
-    Bitstream.__name__ = "Overlay"
-    modules = {"pynq": {"Overlay": Bitstream, "MMIO": MMIO, "allocate": allocate, "Xlnk": Xlnk, "DefaultIP": DefaultIP, "Interrupt": Interrupt,
-                        "GPIO": GPIO},
-               "pynq.overlay": {"Overlay": Bitstream, "DefaultIP": DefaultIP}, "pynq.mmio": {"MMIO": MMIO},
-               "pynq.gpio": {"GPIO": GPIO}, "pynq.interrupt": {"Interrupt": Interrupt}, "pynq.lib": {"DMA": DMA, "AxiGPIO": AxiGPIO}, "pynq.lib.dma": {"DMA": DMA},
-               "pynq.lib.axigpio": {"AxiGPIO": AxiGPIO}}
-    for name, members in modules.items():
-        module = types.ModuleType(name, "markervp in the place of PYNQ")
-        module.__path__ = []
-        module.__dict__.update(members)
-        sys.modules[name] = module
-        outer, _, inner = name.rpartition(".")
-        if outer:
-            setattr(sys.modules[outer], inner, module)

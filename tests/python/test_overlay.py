@@ -4,6 +4,7 @@ import pathlib
 
 import markervp
 import markervp_overlay
+import markervp_pynq
 import pytest
 
 numpy = pytest.importorskip("numpy")
@@ -60,15 +61,15 @@ def test_a_transfer_that_does_not_end_costs_ten_milliseconds(overlay):
 
 
 def test_pins_between_ps_and_logic(overlay):
-    pin = markervp_overlay.GPIO(markervp_overlay.GPIO.get_gpio_pin(33), "out")
+    pin = markervp_pynq.GPIO(markervp_pynq.GPIO.get_gpio_pin(33), "out")
     for value in (1, 0):
         pin.write(value)
         assert overlay.session._ask("access", at=0xE000A000 + 0x4C)["value"] >> 1 & 1 == value  # DATA of bank 3
-    assert markervp_overlay.GPIO(markervp_overlay.GPIO.get_gpio_pin(2), "in").read() == 0
+    assert markervp_pynq.GPIO(markervp_pynq.GPIO.get_gpio_pin(2), "in").read() == 0
     with pytest.raises(AttributeError):
         pin.read()
     with pytest.raises(ValueError, match="pin 7 is none of the 64"):
-        markervp_overlay.GPIO(7, "in")
+        markervp_pynq.GPIO(7, "in")
 
 
 def test_a_driver_is_made_from_its_description(overlay):
