@@ -119,7 +119,8 @@ install(FILES cmake/toolchain-arm-none-eabi.cmake cmake/MarkervpEigen.cmake cmak
 install(FILES scripts/markervp.gdb DESTINATION "${data_folder}")
 # Where Debian's Python looks for modules.
 set(MARKERVP_PYTHON_FOLDER "lib/python3/dist-packages")
-install(FILES python/markervp.py python/markervp_overlay.py python/markervp_pytest.py DESTINATION "${MARKERVP_PYTHON_FOLDER}")
+install(FILES python/markervp.py python/markervp_overlay.py python/markervp_pynq.py python/markervp_pytest.py
+  python/markervp_registers.py DESTINATION "${MARKERVP_PYTHON_FOLDER}")
 install(DIRECTORY traces/checks DESTINATION "${data_folder}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 

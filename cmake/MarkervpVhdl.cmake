@@ -282,6 +282,9 @@ function(markervp_vhdl_escape_keywords TEXT)
       this throughout time timeprecision timeunit tran tri tri0 tri1 triand trior trireg type typedef union unique unsigned uwire var vectored
       virtual void wand weak wildcard wire with within wor)
     string(REGEX REPLACE "([^A-Za-z0-9_\\\\'])${word}( *[;,)=:?&|^+<}]| - |\n *[);])" "\\1\\\\${word} \\2" text "${text}")
+    # Entities, and their instances.
+    string(REGEX REPLACE "(^|\n)module ${word}\n" "\\1module \\\\${word} \n" text "${text}")
+    string(REGEX REPLACE "\n  ${word} ([A-Za-z0-9_]+) \\(\n" "\n  \\\\${word} \\1 (\n" text "${text}")
   endforeach()
   set(${TEXT} "${text}" PARENT_SCOPE)
 endfunction()

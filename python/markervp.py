@@ -29,7 +29,7 @@ import sqlite3
 import subprocess
 import tempfile
 
-__all__ = ["Beat", "Error", "MMIO", "Overlay", "Run", "Session", "Sweep", "allocate", "explore", "figures", "program", "read", "read_sweep", "run", "sweep", "write_study"]
+__all__ = ["Beat", "Error", "MMIO", "Overlay", "Run", "Session", "Sweep", "allocate", "as_pynq", "explore", "figures", "program", "read", "read_sweep", "run", "sweep", "write_study"]
 
 _points_failed = 4
 
@@ -38,6 +38,9 @@ def __getattr__(name):  # a notebook's names, which other programs do not load
     if name in ("MMIO", "Overlay", "allocate"):
         import markervp_overlay
         return getattr(markervp_overlay, name)
+    if name == "as_pynq":
+        import markervp_pynq
+        return markervp_pynq.as_pynq
     raise AttributeError(f"module 'markervp' has no attribute '{name}'")
 
 

@@ -9,10 +9,12 @@
 Names are PYNQ's. Each read and write of a register is an access of the processor with its time; `overlay.session` is the
 markervp.Session behind it (time, signals, waiting). Needs numpy.
 """
+import json
 import pathlib
 import weakref
 
 import markervp
+from markervp_registers import RegisterMap
 
 _open = []  # overlays; MMIO and allocate() are for the one that was made last
 
@@ -49,23 +51,6 @@ class MMIO:
         self._overlay._store(self._address(offset), int(data) & 0xFFFFFFFF)
 
 
-class RegisterMap:
-    """The registers of an IP by name: ip.register_map.GPIO_DATA reads, and an assignment writes."""
-
-    def __init__(self, overlay, name):
-        object.__setattr__(self, "_place", (overlay, name))
-
-    def __getattr__(self, register):
-        if register.startswith("_"):
-            raise AttributeError(register)
-        overlay, name = self._place
-        return overlay._load(f"{name}.{register}")
-
-    def __setattr__(self, register, value):
-        overlay, name = self._place
-        overlay._store(f"{name}.{register}", int(value))
-
-
 class Interrupt:
     """A line by name, "axi_dma_0/s2mm_introut": `await interrupt.wait()`, or interrupt.wait_now() outside of coroutines."""
 
@@ -82,12 +67,13 @@ class Interrupt:
 
 
 class DefaultIP:
-    """An IP of the overlay: its registers by offset and by name, and its interrupt."""
+    """An IP of the overlay: its registers by offset and by name, and its interrupt. `description`: its entry of ip_dict."""
 
-    def __init__(self, overlay, name, description):
-        self._overlay, self._name = overlay, name
-        self.mmio = MMIO(description["phys_addr"], description["addr_range"], overlay)
-        self.register_map = RegisterMap(overlay, name)
+    def __init__(self, description, overlay=None):
+        self._overlay, self._name = overlay or _current(), description["fullpath"]
+        self.description = description
+        self.mmio = MMIO(description["phys_addr"], description["addr_range"], self._overlay)
+        self.register_map = RegisterMap(self._overlay, self._name)
 
     def read(self, offset=0):
         return self.mmio.read(offset)
@@ -157,6 +143,24 @@ class _Channel:
             array.flush()
         self._ip.write(self._at + 0x18, (array.physical_address + start) & 0xFFFFFFFF)
         self._ip.write(self._at + 0x28, count)
+        if not self._flush:
+            receiving = self._ip._overlay._receiving
+            if self not in receiving:
+                receiving.append(self)
+
+    def _let_end(self, step=1e-6):
+        """Waits for a transfer as long as Python needs on the board from one call to the next. Whether it has ended."""
+        session = self._ip._overlay.session
+        end = session.time + _python_s
+        while not self.idle and not self.error and session.time < end:
+            session.run(f"{step * 1e6:g} us")
+            step *= 2
+        self._buffer.invalidate()
+        return self.idle or self.error
+
+    def _fills(self, buffer):
+        first, other = self._buffer.physical_address, buffer.physical_address
+        return first < other + buffer.nbytes and other < first + self._buffer.nbytes
 
     def wait(self, timeout=10.0):
         """Until it is idle; `timeout` in simulated seconds."""
@@ -183,9 +187,9 @@ class _Channel:
 class DMA(DefaultIP):
     """AXI DMA: sendchannel and recvchannel, as far as it has them."""
 
-    def __init__(self, overlay, name, description):
-        super().__init__(overlay, name, description)
-        settings = overlay._settings
+    def __init__(self, description, overlay=None):
+        super().__init__(description, overlay)
+        settings, name = self._overlay._settings, self._name
         has = {way: settings.get(f"pl.{name}.include_{way}", "true") == "true" for way in ("mm2s", "s2mm", "sg")}
         if has["sg"]:
             raise markervp.Error(f"{name} is built with scatter-gather, which this driver does not take: read() and write() reach "
@@ -245,8 +249,8 @@ class _GpioChannel:
 class AxiGPIO(DefaultIP):
     """AXI GPIO: channel1 and channel2; read() and write() are those of registers."""
 
-    def __init__(self, overlay, name, description):
-        super().__init__(overlay, name, description)
+    def __init__(self, description, overlay=None):
+        super().__init__(description, overlay)
         self.channel1, self.channel2 = _GpioChannel(self, 0x00), _GpioChannel(self, 0x08)
 
     def __getitem__(self, pins):
@@ -255,6 +259,8 @@ class AxiGPIO(DefaultIP):
     def setdirection(self, direction, channel=1):
         (self.channel1 if channel == 1 else self.channel2).setdirection(direction)
 
+
+_python_s = 0.01  # of simulated time
 
 _drivers = {"AXI DMA": DMA, "AXI GPIO": AxiGPIO}
 
@@ -272,10 +278,19 @@ class Overlay:
         self.session = markervp.Session("notebook", set=values, options=options, **session)
         self._next = None
         self._buffers = []  # weak: a buffer that is gone needs nothing
+        self._receiving = []  # channels whose transfers may not have ended
+        self._is_new = False  # a register was written since Python looked at a buffer
         found = self.session._ask("devices")
         self._settings = found["settings"]
+        described = path.with_name("registers.json")
+        named = json.loads(described.read_text()) if described.exists() else {}
+        self._registers = {one["name"]: {**one["registers"], **named.get(one["name"], {})} for one in found["devices"]}
         self.ip_dict = {one["name"]: {"phys_addr": one["base"], "addr_range": one["size"], "type": one["what"], "fullpath": one["name"]}
                         for one in found["devices"]}
+        self.interrupt_pins = {source.removeprefix("pl.").replace(".", "/"): {"controller": "", "index": number, "raw_irq": number}
+                               for source, number in found["interrupts"].items() if source.startswith("pl.")}
+        self.clock_dict = {number: {"enable": 1, "name": f"fclk{number}_mhz", "mhz": found["clocks"][f"ps.fclk_clk{number}.clk"] / 1e6}
+                           for number in range(4) if f"ps.fclk_clk{number}.clk" in found["clocks"]}
         self._made = {}
         _open.append(self)
 
@@ -304,7 +319,7 @@ class Overlay:
         if name not in self._made:
             description = self.ip_dict[name]
             driver = next((made for what, made in _drivers.items() if description["type"].startswith(what)), DefaultIP)
-            self._made[name] = driver(self, name, description)
+            self._made[name] = driver(description, self)
         return self._made[name]
 
     def __dir__(self):
@@ -320,6 +335,15 @@ class Overlay:
         for buffer in self._alive():
             buffer._flush_changes()
         self.session._ask("access", at=at, value=value)
+        self._is_new = True
+
+    def _catch_up(self, buffer):
+        filling = [one for one in self._receiving if one._fills(buffer)] if self._is_new else []
+        for channel in filling:
+            if channel._let_end():
+                self._receiving.remove(channel)
+            else:
+                self._is_new = False
 
     def _invalidate(self):
         for buffer in self._alive():
@@ -380,13 +404,51 @@ def _buffer_class():
                     "memory", at=self.physical_address + at, bytes=min(_memory_part, self.nbytes - at))["hex"])
                     for at in range(0, self.nbytes, _memory_part))
                 self._known = data
-                numpy.copyto(self, numpy.frombuffer(data, dtype=self.dtype).reshape(self.shape))
+                numpy.copyto(self.view(numpy.ndarray), numpy.frombuffer(data, dtype=self.dtype).reshape(self.shape))
 
             def _flush_changes(self):
                 data = self.tobytes()
                 if data != self._known:
                     changed = numpy.flatnonzero(numpy.frombuffer(data, "u1") != numpy.frombuffer(self._known, "u1"))
                     self._put(data, int(changed[0]), int(changed[-1]) + 1)
+
+            # Python on the board is slow: before it looks at a buffer, a transfer that was started has ended.
+            def _look(self):
+                if self._overlay is not None:
+                    self._overlay._catch_up(self)
+
+            def __getitem__(self, place):
+                self._look()
+                return super().__getitem__(place)
+
+            def __iter__(self):
+                self._look()
+                return super().__iter__()
+
+            @staticmethod
+            def _look_at_all(arguments):
+                for one in arguments:
+                    if isinstance(one, PynqBuffer):
+                        one._look()
+                    elif isinstance(one, (list, tuple)):
+                        PynqBuffer._look_at_all(one)
+
+            def __array_function__(self, function, kinds, arguments, named):
+                self._look_at_all(arguments)
+                return super().__array_function__(function, kinds, arguments, named)
+
+            def __array_ufunc__(self, function, method, *inputs, **named):
+                self._look_at_all(inputs)
+                plain = [one.view(numpy.ndarray) if isinstance(one, PynqBuffer) else one for one in inputs]
+                into = named.get("out")
+                if into is not None:
+                    named["out"] = tuple(one.view(numpy.ndarray) if isinstance(one, PynqBuffer) else one for one in into)
+                result = getattr(function, method)(*plain, **named)
+                return into[0] if into is not None and len(into) == 1 else result
+
+            def tolist(self):
+                self._look()
+                return super().tolist()
 
             sync_to_device, sync_from_device = flush, invalidate
 

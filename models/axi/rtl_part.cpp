@@ -56,8 +56,10 @@ RtlPart::RtlPart(sc_core::sc_module_name name, const std::string& file, const Cl
   }
   interfaces_ = find_interfaces(descriptor);
   if (clocks.empty()) {
-    throw vp::InputError(std::string(this->name()) + ": RTL '" + file +
-                         "' needs a clock, for its edges and its reports");
+    throw vp::InputError(
+        std::string(this->name()) + ": RTL '" + file +
+        "' needs a clock, for its edges and its reports; of logic without any give "
+        "one for no port, ''");
   }
   rtl_ = std::make_unique<pl::RtlObject>(file, seed_, this->name(), *clocks.front().second);
   connect_clocks(clocks);
@@ -74,6 +76,11 @@ RtlPart::~RtlPart() = default;
 
 void RtlPart::connect_clocks(const ClockPins& clocks) {
   for (const auto& [pin, clock] : clocks) {
+    if (pin.empty()) {
+      is_logic_ = true;
+      sides_.push_back(std::make_unique<Side>("no_edges", *clock, *this, sides_.size()));
+      continue;
+    }
     const Interface& interface = find(pin, {Kind::clock});
     claim(pin, {Kind::clock}, true);
     levels_.push_back(static_cast<std::uint8_t*>(rtl_->pin(interface.ports.at(""))));
@@ -308,15 +315,17 @@ void RtlPart::end_of_elaboration() {
 /// Of other RTL, or of the clocked model that writes it; null: a process does.
 const vp::Clock* RtlPart::clock_of_writer(const vp::SignalBase& signal) const {
   if (const auto* other = dynamic_cast<const RtlPart*>(signal.get_parent_object()))
-    return &other
-                ->sides_[other->clock_of(
-                    other->find(signal.basename(), {Kind::wire, Kind::interrupt}))]
-                ->clock();
+    return other->is_logic_ ? nullptr
+                            : &other
+                                   ->sides_[other->clock_of(other->find(
+                                       signal.basename(), {Kind::wire, Kind::interrupt}))]
+                                   ->clock();
   const vp::Clocked* writer = signal.writer();
   return writer ? &writer->clock() : nullptr;
 }
 
 void RtlPart::watch_inputs() {
+  if (is_logic_) return;  // it samples nothing
   for (const auto& [interface, signal] : named_inputs_) {
     const vp::Clock& clock = sides_[clock_of(*interface)]->clock();
     if (interface->kind == Kind::reset) {

@@ -42,7 +42,8 @@ namespace axi {
 /// place of the port, for what does not go together.
 class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::SignalListener {
  public:
-  /// A port that is a clock, and the clock that drives it.
+  /// A port that is a clock, and the clock that drives it. Of logic without any clock one without a
+  /// port: what its reports are about.
   using ClockPins = std::vector<std::pair<std::string, vp::Clock*>>;
 
   /// Throws vp::InputError for a file that is no RTL of this kind, for interfaces that cannot be
@@ -138,6 +139,7 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   std::vector<Interface> interfaces_;
   std::vector<std::unique_ptr<Side>> sides_;  ///< one for each clock
   std::vector<std::uint8_t*> levels_;         ///< of the clocks
+  bool is_logic_ = false;                     ///< has no clock
   bool fall_unseen_ = false;                  ///< nothing in the RTL waits for a clock to fall
   bool registered_ = false;                   ///< outputs change with edges alone
   std::map<std::string, bool> connected_;     ///< by interface, once it is

@@ -59,8 +59,9 @@ constexpr const char* config_examples =
     R"(What it prints is a file for --config: with the same --program it makes the same run.)";
 
 constexpr const char* import_help =
-    R"(Writes design.yaml, xparameters.h, pl.dtsi (devices for Linux), CMakeLists.txt, and IMPORT.md,
-which says what became of each part. Importing again brings in what changed in Vivado, and keeps your changes of design.yaml.)";
+    R"(Writes design.yaml, xparameters.h, pl.dtsi (devices for Linux), registers.json (for notebooks),
+CMakeLists.txt, and IMPORT.md, which says what became of each part. Importing again brings in what
+changed in Vivado, and keeps your changes of design.yaml.)";
 
 constexpr const char* report_examples =
     R"(One folder: writes report.html into it. Two folders of runs: a page that compares them.)";
@@ -295,6 +296,11 @@ void add_import(CLI::App& app, ImportOptions& target) {
       ->add_option("--program", target.programs,
                    "sources of its PS program: main.c …, or a folder with them")
       ->type_name("FILE");
+  command
+      ->add_option("--device", target.device,
+                   "import it as for this chip, as xc7z020-1, whose size, speed and power the "
+                   "verdict has then")
+      ->type_name("NAME");
   command
       ->add_option("--block-design", target.block_design, "which one, of an archive with several")
       ->type_name("NAME");

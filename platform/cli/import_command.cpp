@@ -5,6 +5,7 @@
 #include <chip/run/simulation.h>
 #include <chip/system/hardware_map.h>
 #include <cli/commands.h>
+#include <fpga/device/device.h>
 #include <host/output_folder.h>
 #include <host/process.h>
 #include <result/console.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <utility>
 
 namespace platform::cli {
 
@@ -170,6 +172,25 @@ std::vector<std::string> texts_of(const std::vector<std::string>& files) {
   return texts;
 }
 
+/// The chip of the hand-off, or the one that the user names in its place: what to say of that.
+std::string choose_device(handoff::Handoff& handoff, const std::string& wanted) {
+  const std::vector<device::Device>& all = device::devices();
+  if (wanted.empty()) {
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const auto& one) { return one.name() == handoff.device; }))
+      throw vp::InputError(handoff.file + ": the design is for an " + handoff.part +
+                           ", whose size, speed and power are not known here: --device xc7z020-1 "
+                           "imports it as for that chip");
+    return {};
+  }
+  const std::string own = std::exchange(handoff.device, device::find_device(wanted).name());
+  if (own == handoff.device) return {};
+  return "the hand-off is for an " + handoff.part + ", and was imported as for an " +
+         handoff.device +
+         ": whether it fits and meets timing, its clocks and watts are of that "
+         "chip";
+}
+
 }  // namespace
 
 int import_handoff(const ImportOptions& options, std::ostream& out) {
@@ -178,9 +199,11 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
     return done;
   }
   if (options.file.empty()) throw vp::InputError("import needs a hand-off: .hwh, .xsa or .hdf");
-  const handoff::Handoff handoff = handoff::read_handoff(options.file, options.block_design);
+  handoff::Handoff handoff = handoff::read_handoff(options.file, options.block_design);
+  const std::string note = choose_device(handoff, options.device);
   const handoff::RtlFinder rtl(options.rtl);
-  const block_design::ImportedDesign design = block_design::import_design(handoff, rtl);
+  block_design::ImportedDesign design = block_design::import_design(handoff, rtl);
+  if (!note.empty()) design.notes.push_back(note);
   const fs::path folder = options.output.empty() ? handoff.name : options.output;
   const std::vector<std::string> programs = program_sources(options.programs);
   const std::vector<std::string> texts = texts_of(programs);
@@ -208,6 +231,7 @@ int import_handoff(const ImportOptions& options, std::ostream& out) {
     write("drivers/" + name, text);
   }
   write("pl.dtsi", block_design::device_tree(handoff));
+  write("registers.json", block_design::register_names(handoff));
   write("IMPORT.md", block_design::import_report(handoff, design, problem));
   const auto stubs = std::count_if(design.parts.begin(), design.parts.end(), [](const auto& part) {
     return part.kind == block_design::Kind::stub;

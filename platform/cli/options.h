@@ -178,6 +178,7 @@ struct MapOptions {
 struct ImportOptions {
   std::string file;                   ///< .hwh, .xsa or .hdf
   std::string block_design;           ///< which one of several in an archive; empty: the only one
+  std::string device;                 ///< in the place of the hand-off's; empty: that
   std::vector<std::string> programs;  ///< sources of the PS program
   std::vector<std::string> rtl;       ///< folders with RTL of its IP
   std::string output;                 ///< folder; empty: the name of the block design

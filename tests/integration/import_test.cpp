@@ -82,6 +82,29 @@ BOOST_FIXTURE_TEST_CASE(streams_of_other_widths_carry_the_same_bytes, Imported) 
   }
 }
 
+BOOST_FIXTURE_TEST_CASE(a_chip_of_unknown_figures_gives_way_to_one_that_is_named, Imported) {
+  kit::HwhText text = kit::small_handoff();
+  text.device = "7z045";
+  write_handoff(text.text());
+  const kit::Outcome refused = markervp({"import", "small.hwh", "-o", "mine"});
+  BOOST_TEST(refused.exit_code == 2);
+  BOOST_TEST(has(refused.err,
+                 "small.hwh: the design is for an xc7z045clg400-1, whose size, speed "
+                 "and power are not known here: --device xc7z020-1"),
+             refused.err);
+  const kit::Outcome other =
+      markervp({"import", "small.hwh", "-o", "mine", "--device", "xc7z100-1"});
+  BOOST_TEST(has(other.err, "unknown device 'xc7z100-1'"), other.err);
+  const kit::Outcome taken =
+      markervp({"import", "small.hwh", "-o", "mine", "--device", "xc7z020-2"});
+  BOOST_TEST(taken.exit_code == 0, taken.err);
+  BOOST_TEST(has(file("design.yaml"), "device: xc7z020-2"));
+  BOOST_TEST(has(file("IMPORT.md"),
+                 "* the hand-off is for an xc7z045clg400-1, and was imported as for an xc7z020-2"));
+  const kit::Outcome ran = run_program();
+  BOOST_TEST(has(ran.out, "0 bytes wrong"), ran.out + ran.err);
+}
+
 BOOST_FIXTURE_TEST_CASE(importing_again_keeps_what_the_user_changed, Imported) {
   import();
   kit::write_file(*this / "mine/design.yaml",

@@ -840,13 +840,15 @@ test("traced: the waves point at the frame, and the timeline at the waves", () =
 
 test("traced: a part of the block design shows its registers, traffic and waves", () => open("traced", async (page) => {
   await page.waitForSelector(".wave-scroll[data-drawn]");
-  assert.equal(await page.$$eval("#diagram svg [role=button]", (nodes) => nodes.length), 2, "the legend is no part");
+  assert.equal(await page.$$eval("#diagram svg [role=button]", (nodes) => nodes.length), 3, "the legend is no part");
   await page.click("#diagram svg [aria-label=engine]");
   assert.equal(await page.textContent("#diagram h3"), "engine, me:user:engine:1.0");
   const text = await page.textContent("#diagram");
   for (const what of ["0x43C00004", "STATUS", "pl.bus.engine.reads", "12 345"]) assert.ok(text.replace(/\u202f|\u00a0/g, " ").includes(what), what);
   await page.click("#diagram button:text(\"Show the waves of engine\")");
   assert.equal(await page.inputValue("#waves input"), "pl.engine");
+  await page.click("#diagram svg [aria-label=ps] >> nth=1");
+  assert.equal(await page.textContent("#diagram h3"), "ps, xilinx.com:ip:processing_system7:5.5", "what it takes");
   await page.focus("#diagram svg [aria-label=ps]");
   await page.keyboard.press("Enter");
   assert.match(await page.textContent("#diagram"), /Nothing was counted in it.*None in this page: a run with --trace/);

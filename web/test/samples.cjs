@@ -290,11 +290,11 @@ function waves({ changes = 2000, accesses = false } = {}) {
   };
 }
 
-/** A block design of two parts and a clock, as Graphviz draws them. */
+/** A block design of two parts, of which the PS is drawn twice, and the clocks, as Graphviz draws them. */
 function diagram() {
   const node = (name, x) => `<g class="node"><title>${name}</title><polygon fill="#cfe8ff" stroke="black" points="${x},8 ${x + 90},8 ${x + 90},44 ${x},44"/><text x="${x + 10}" y="30">${name}</text></g>`;
   return {
-    svg: `<svg width="360pt" height="60pt" viewBox="0 0 360 60" xmlns="http://www.w3.org/2000/svg"><g class="graph">${node("ps", 10)}${node("engine", 130)}${node("clock ps.FCLK_CLK0", 250)}</g></svg>`,
+    svg: `<svg width="480pt" height="60pt" viewBox="0 0 480 60" xmlns="http://www.w3.org/2000/svg"><g class="graph">${node("ps", 10)}${node("engine", 130)}${node("ps inputs", 250)}${node("clocks of parts", 370)}</g></svg>`,
     parts: [{ name: "ps", ip: "xilinx.com:ip:processing_system7:5.5", module: "ps2", registers: [], traffic: [] },
       { name: "engine", ip: "me:user:engine:1.0", module: "pl.engine", registers: [["0x43C00004", "STATUS", "ro", "what it does"]], traffic: [["pl.bus.engine.reads", 12345, "read transactions"]] }],
   };

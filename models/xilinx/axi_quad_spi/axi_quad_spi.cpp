@@ -1,7 +1,9 @@
 #include <xilinx/axi_quad_spi/axi_quad_spi.h>
 
+#include <string>
 #include <utility>
 
+#include <vp/error.h>
 #include <vp/report.h>
 #include <xilinx/common/axi_lite_ip.h>
 
@@ -11,7 +13,18 @@ namespace {
 
 using namespace axi_quad_spi;
 
-constexpr std::uint64_t bits_per_word = 8;
+constexpr unsigned bits_per_byte = 8;
+
+std::uint32_t mask_of(unsigned bits) {
+  return 0xFFFF'FFFF >> (32 - bits);
+}
+
+/// The lowest bit becomes the highest one.
+std::uint32_t reversed(std::uint32_t word, unsigned bits) {
+  std::uint32_t result = 0;
+  for (unsigned bit = 0; bit < bits; ++bit) result = result << 1 | (word >> bit & 1);
+  return result;
+}
 
 }  // namespace
 
@@ -25,6 +38,8 @@ AxiQuadSpi::AxiQuadSpi(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
                   "build option No. of Slaves (PG153)"),
       fifo_depth("fifo_depth", build.fifo_depth, vp::Unit::none, {16, 256}, vp::Source::published,
                  "build option FIFO Depth (PG153)"),
+      num_transfer_bits("num_transfer_bits", build.num_transfer_bits, vp::Unit::none, {8, 32},
+                        vp::Source::published, "build option Transaction Width (PG153): 8, 16, 32"),
       s_axi("s_axi", axi_quad_spi::registers, axi_lite_options(axi_quad_spi::address_bits),
             &s_axi_aclk.scheduler()),
       ext_spi_clk_(ext_spi_clk ? *ext_spi_clk : s_axi_aclk),
@@ -35,6 +50,9 @@ AxiQuadSpi::AxiQuadSpi(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
       ssr_(s_axi[SPISSR]),
       devices_(num_ss_bits) {
   const std::uint32_t slaves = num_ss_bits == 32 ? 0xFFFFFFFF : (1u << num_ss_bits) - 1;
+  if (num_transfer_bits != 8 && num_transfer_bits != 16 && num_transfer_bits != 32)
+    throw vp::InputError(std::string(num_transfer_bits.name()) + " is " + num_transfer_bits.text() +
+                         ": it must be 8, 16 or 32");
   ssr_.set_writable(slaves);
   ssr_.set_reset_value(slaves);
   wire();
@@ -67,11 +85,11 @@ void AxiQuadSpi::wire() {
                "bit 3 first");
       return;
     }
-    tx_.push_back(static_cast<std::uint8_t>(word));
+    tx_.push_back(word & mask_of(num_transfer_bits));
     update();
   });
   vp::Register& drr = s_axi[SPI_DRR];
-  drr.computed_by([this] { return rx_.empty() ? 0u : std::uint32_t{rx_.front()}; });
+  drr.computed_by([this] { return rx_.empty() ? 0u : rx_.front(); });
   drr.after_read([this](std::uint32_t) {
     if (rx_.empty()) {
       vp::warn(
@@ -83,7 +101,7 @@ void AxiQuadSpi::wire() {
     rx_.pop_front();
     update();
   });
-  const auto less_one = [](const std::deque<std::uint8_t>& fifo) {
+  const auto less_one = [](const std::deque<std::uint32_t>& fifo) {
     return fifo.empty() ? 0u : static_cast<std::uint32_t>(fifo.size() - 1);
   };
   s_axi[TX_OCY].computed_by([this, less_one] { return less_one(tx_); });
@@ -134,8 +152,21 @@ void AxiQuadSpi::select() {
   selected_ = wanted;
 }
 
-std::uint8_t AxiQuadSpi::exchange(std::uint8_t byte) {
-  if (cr_.any(spicr::LOOP)) return byte;
+/// A word out, and the one that comes back meanwhile.
+std::uint32_t AxiQuadSpi::exchange(std::uint32_t word) {
+  if (cr_.any(spicr::LOOP)) return word;
+  const unsigned bits = num_transfer_bits;
+  const bool is_reversed = cr_.any(spicr::LSB_First);
+  const std::uint32_t sent = is_reversed ? reversed(word, bits) : word;
+  std::uint32_t reply = 0;
+  for (unsigned left = bits; left != 0; left -= bits_per_byte) {
+    const auto byte = static_cast<std::uint8_t>(sent >> (left - bits_per_byte));
+    reply = reply << bits_per_byte | exchange_byte(byte);
+  }
+  return is_reversed ? reversed(reply, bits) : reply;
+}
+
+std::uint8_t AxiQuadSpi::exchange_byte(std::uint8_t byte) {
   std::uint8_t reply = 0xFF;
   for (unsigned n = 0; n < devices_.size(); ++n) {
     if ((selected_ >> n & 1) != 0 && devices_[n]) reply &= devices_[n]->exchange(byte);
@@ -146,7 +177,7 @@ std::uint8_t AxiQuadSpi::exchange(std::uint8_t byte) {
 void AxiQuadSpi::edge() {
   sleep();
   if (done_at_ <= clock().cycle()) {
-    const std::uint8_t reply = exchange(tx_.front());
+    const std::uint32_t reply = exchange(tx_.front());
     done_at_ = vp::Clock::never;
     tx_.pop_front();
     isr_.set_bits(event::DRR_Not_Empty);
@@ -176,7 +207,7 @@ std::uint32_t AxiQuadSpi::status() const {
 
 /// Clocks of the registers until a word has passed, rounded up.
 std::uint64_t AxiQuadSpi::word_clocks() const {
-  const std::uint64_t on_line = std::uint64_t{bits_per_word} * sck_ratio;
+  const std::uint64_t on_line = std::uint64_t{num_transfer_bits} * sck_ratio;
   const std::uint64_t line_hz = ext_spi_clk_.frequency_hz();
   if (line_hz == 0) return vp::Clock::never - clock().cycle();  // the clock is stopped
   return (on_line * clock().frequency_hz() + line_hz - 1) / line_hz;

@@ -20,12 +20,13 @@ namespace xilinx {
 struct AxiQuadSpiBuild {
   std::uint32_t sck_ratio = 16;  ///< clocks of ext_spi_clk in a period of SCK
   std::uint32_t num_ss_bits = 1;
-  std::uint32_t fifo_depth = 16;  ///< 16 or 256
+  std::uint32_t fifo_depth = 16;        ///< 16 or 256
+  std::uint32_t num_transfer_bits = 8;  ///< of a word: 8, 16 or 32
 };
 
-/// AXI Quad SPI v3.2 (PG153) in standard mode as a master of 8-bit words. Reading an empty SPI_DRR
-/// and writing a full SPI_DTR are errors on the bus of the chip; here they are warned of, and
-/// change nothing. Bytes from where no device is read 0xFF.
+/// AXI Quad SPI v3.2 (PG153) in standard mode as a master. Reading an empty SPI_DRR and writing a
+/// full SPI_DTR are errors on the bus of the chip; here they are warned of, and change nothing.
+/// Devices exchange bytes, the highest of a word first. Bytes from where no device is read 0xFF.
 class AxiQuadSpi : public vp::Clocked, public vp::Ip, public board::SpiHost {
  public:
   /// `ext_spi_clk`: what SCK is made from; null: the clock of the registers.
@@ -36,6 +37,7 @@ class AxiQuadSpi : public vp::Clocked, public vp::Ip, public board::SpiHost {
   vp::Parameter<std::uint32_t> sck_ratio;
   vp::Parameter<std::uint32_t> num_ss_bits;
   vp::Parameter<std::uint32_t> fifo_depth;
+  vp::Parameter<std::uint32_t> num_transfer_bits;
 
   vp::In<bool> s_axi_aresetn{"s_axi_aresetn"};  ///< may be left open
   vp::RegisterBank s_axi;
@@ -53,14 +55,15 @@ class AxiQuadSpi : public vp::Clocked, public vp::Ip, public board::SpiHost {
   void control_written(std::uint32_t word);
   void select();
   void reset();
-  std::uint8_t exchange(std::uint8_t byte);
+  std::uint32_t exchange(std::uint32_t word);
+  std::uint8_t exchange_byte(std::uint8_t byte);
   std::uint32_t status() const;
   std::uint64_t word_clocks() const;
   void update();
 
   vp::Clock& ext_spi_clk_;
   vp::Register &gie_, &isr_, &ier_, &cr_, &ssr_;
-  std::deque<std::uint8_t> tx_, rx_;
+  std::deque<std::uint32_t> tx_, rx_;
   std::vector<std::shared_ptr<board::SpiDevice>> devices_;
   std::uint32_t selected_ = 0;  ///< bit n: device n
   std::uint64_t done_at_ = vp::Clock::never;

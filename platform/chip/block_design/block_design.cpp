@@ -206,8 +206,9 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
 vp::Clock* BlockDesign::clock_of(const End& source) {
   if (source.part == "external") return external_.at(source.port)->clk.get();
   const PlacedPart& part = *design_.part(source.part);
-  // Known before it is placed: stubs may drive each other in a ring.
-  if (part.is_stub() && part.clocks.count(source.port) == 0) return nullptr;
+  // Known before it is placed: stubs and RTL may drive each other in a ring.
+  const bool drives_wires = part.is_stub() || !part.rtl.empty();
+  if (drives_wires && part.clocks.count(source.port) == 0) return nullptr;
   Placed& driver = placed(source.part);
   const auto found = driver.clocks.find(source.port);
   return found == driver.clocks.end() ? nullptr : found->second;

@@ -389,7 +389,9 @@ class Writer {
     std::map<std::string, std::vector<std::pair<std::string, Ranges>>> masters;
     for (const Module& module : handoff_.modules) {
       for (const handoff::Segment& segment : module.segments) {
-        auto& slaves = masters[module.instance + "." + master_of(module, segment)];
+        const std::string master = master_of(module, segment);
+        if (leads_nowhere(module, master, segment)) continue;
+        auto& slaves = masters[module.instance + "." + master];
         const std::string slave = segment.instance + "." + segment.slave;
         auto entry = std::find_if(slaves.begin(), slaves.end(),
                                   [&](const auto& known) { return known.first == slave; });
@@ -426,6 +428,18 @@ class Writer {
                             vp::hex(segment.base) + " for " + segment.master +
                             ", and the processor gets there by " + port + ": so it is here");
     return port;
+  }
+
+  /// Vivado keeps segments of a master whose bus was taken away.
+  bool leads_nowhere(const Module& module, const std::string& master,
+                     const handoff::Segment& segment) {
+    const BusInterface* bus = module.interface(master);
+    if (!bus || !bus->bus.empty()) return false;
+    result_.notes.push_back("the hand-off has " + segment.instance + " at " +
+                            vp::hex(segment.base) + " for " + module.instance + "." + master +
+                            ", which is joined to nothing: an access there is answered with an "
+                            "error, as on the chip");
+    return true;
   }
 
   // What nothing inside reads needs no level.

@@ -43,6 +43,10 @@ std::string import_report(const handoff::Handoff& handoff, const ImportedDesign&
 /// The devices of the PL that the PS sees, as a device tree for Linux.
 std::string device_tree(const handoff::Handoff& handoff);
 
+/// registers.json: of each part that the PS sees the registers and fields that the hand-off names,
+/// for register maps in notebooks.
+std::string register_names(const handoff::Handoff& handoff);
+
 /// What the vendor's tools make of the drivers of a design's own IP.
 struct DriverFiles {
   std::vector<std::pair<std::string, std::string>> files;  ///< "filter_v1_0/filter.h", text

@@ -130,15 +130,18 @@ std::string rtl_targets(const ImportedDesign& design) {
   std::string text;
   for (const ImportedPart& part : design.parts) {
     if (part.kind != Kind::rtl) continue;
-    text += "markervp_add_rtl(" + part.target + " TOP " + part.rtl.top + " SOURCES" +
-            quoted_lines(part.rtl.files) +
-            (part.rtl.parameters.empty() ? ""
-                                         : "\n  PARAMETERS " + vp::join(part.rtl.parameters, " ")) +
-            (part.rtl.interfaces.empty()
-                 ? ""
-                 : "\n  INTERFACES \"" + vp::join(part.rtl.interfaces, "\" \"") + "\"") +
-            "\n  FIGURES)\nset_target_properties(" + part.target +
-            " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\n\n";
+    text +=
+        "markervp_add_rtl(" + part.target + " TOP " + part.rtl.top + " SOURCES" +
+        quoted_lines(part.rtl.files) +
+        (part.rtl.include_dirs.empty() ? ""
+                                       : "\n  INCLUDE_DIRS" + quoted_lines(part.rtl.include_dirs)) +
+        (part.rtl.parameters.empty() ? ""
+                                     : "\n  PARAMETERS " + vp::join(part.rtl.parameters, " ")) +
+        (part.rtl.interfaces.empty()
+             ? ""
+             : "\n  INTERFACES \"" + vp::join(part.rtl.interfaces, "\" \"") + "\"") +
+        "\n  FIGURES)\nset_target_properties(" + part.target +
+        " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\n\n";
   }
   return text;
 }

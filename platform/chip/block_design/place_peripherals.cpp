@@ -128,6 +128,7 @@ Placed place_quad_spi(const Placement& at) {
   build.sck_ratio = word(at, "C_SCK_RATIO");
   build.num_ss_bits = word(at, "C_NUM_SS_BITS");
   build.fifo_depth = word(at, "C_FIFO_DEPTH");
+  build.num_transfer_bits = word(at, "C_NUM_TRANSFER_BITS");
   auto spi = std::make_unique<xilinx::AxiQuadSpi>(name_of(at), at.clock({"s_axi_aclk"}), build,
                                                   &at.clock({"ext_spi_clk"}));
   Placed placed;

@@ -92,6 +92,8 @@ Placed place_rtl(const Placement& at) {
   for (const auto& [pin, source] : at.part.pins) {
     if (vp::Clock* clock = at.clock_at(pin)) clocks.emplace_back(pin, clock);
   }
+  // Logic without a clock has reports, too; what has one refuses this.
+  if (clocks.empty()) clocks.emplace_back("", &at.ports.fclk_clk(0));
   std::error_code ignored;
   if (!fs::exists(file, ignored))
     at.refuse("its RTL '" + file +

@@ -139,11 +139,11 @@ IpRule uartlite() {
 IpRule quad_spi() {
   return {"axi_quad_spi",
           Kind::model,
-          "AXI Quad SPI as a master, standard mode, words of 8 bits (PG153)",
+          "AXI Quad SPI as a master, standard mode (PG153)",
           {{"C_SCK_RATIO", "16", {}, 2, 2048},
            {"C_NUM_SS_BITS", "1", {}, 1, 32},
            {"C_FIFO_DEPTH", "16", {"16", "256"}},
-           only("C_NUM_TRANSFER_BITS", "8"),
+           {"C_NUM_TRANSFER_BITS", "8", {"8", "16", "32"}},
            only("C_SPI_MODE", "0"),
            only("C_TYPE_OF_AXI4_INTERFACE", "0"),
            only("C_XIP_MODE", "0"),

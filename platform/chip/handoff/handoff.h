@@ -51,8 +51,13 @@ struct Segment {
 
 /// A register that the hand-off names.
 struct RegisterName {
+  struct Field {
+    std::string name;
+    std::uint32_t low = 0, bits = 1;
+  };
   std::string interface, name;
   std::uint32_t offset = 0;
+  std::vector<Field> fields = {};
 };
 
 /// One IP of the block design.

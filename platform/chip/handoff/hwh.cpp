@@ -5,6 +5,7 @@
 #include <vp/unit.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -158,15 +159,26 @@ class HwhReader {
     return bus;
   }
 
+  /// A property of a register or field, if it has it and if it is a number.
+  std::optional<std::uint32_t> property(const pugi::xml_node& entry, const std::string& name) {
+    for (const auto& property : entry.children("PROPERTY"))
+      if (attribute(property, "NAME") == name)
+        return static_cast<std::uint32_t>(number(property, "VALUE"));
+    return std::nullopt;
+  }
+
   void read_registers(const pugi::xml_node& node, Module& module) {
     for (const auto& block : items(node, "ADDRESSBLOCKS", "ADDRESSBLOCK")) {
       for (const auto& entry : items(block, "REGISTERS", "REGISTER")) {
-        for (const auto& property : entry.children("PROPERTY")) {
-          if (attribute(property, "NAME") != "ADDRESS_OFFSET") continue;
-          module.registers.push_back({vp::visible(attribute(block, "INTERFACE")),
-                                      required(entry, "NAME"),
-                                      static_cast<std::uint32_t>(number(property, "VALUE"))});
+        const auto offset = property(entry, "ADDRESS_OFFSET");
+        if (!offset) continue;
+        RegisterName named{vp::visible(attribute(block, "INTERFACE")), required(entry, "NAME"),
+                           *offset};
+        for (const auto& field : items(entry, "FIELDS", "FIELD")) {
+          const auto low = property(field, "BIT_OFFSET"), bits = property(field, "BIT_WIDTH");
+          if (low && bits) named.fields.push_back({required(field, "NAME"), *low, *bits});
         }
+        module.registers.push_back(std::move(named));
       }
     }
   }

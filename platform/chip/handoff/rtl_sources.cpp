@@ -100,6 +100,7 @@ void RtlFinder::add_file(const std::string& path) {
     components_[name].push_back(path);
     return;
   }
+  if (!is_vhdl(path)) by_filename_[fs::path(path).filename().string()].push_back(path);
   if (!is_verilog(path) && !is_vhdl(path)) return;
   const std::string text = text_of(path);
   const auto list = words(text, is_vhdl(path) ? "--" : "//");
@@ -107,7 +108,12 @@ void RtlFinder::add_file(const std::string& path) {
     const bool declares = is_vhdl(path)
                               ? list[i] == "entity" && i + 2 < list.size() && list[i + 2] == "is"
                               : list[i] == "module" && (i == 0 || list[i - 1] != "end");
-    if (declares) modules_.emplace(list[i + 1], path);
+    if (!declares) continue;
+    const auto [known, is_new] = modules_.emplace(list[i + 1], path);
+    if (is_new || known->second == path) continue;
+    std::vector<std::string>& files = declared_twice_[known->first];
+    if (files.empty()) files.push_back(known->second);
+    if (files.back() != path) files.push_back(path);
   }
 }
 
@@ -213,6 +219,7 @@ std::vector<fs::path> listed_files(const pugi::xml_node& root, const fs::path& f
 RtlSources RtlFinder::find(const Module& module) const {
   RtlSources sources = look(module);
   add_primitives(sources);
+  add_includes(sources);
   for (const Port& port : module.ports) {
     if (port.kind == "rst" && port.direction == 'I' && port.active_high)
       sources.interfaces.push_back(port.name + ": reset high");
@@ -238,6 +245,49 @@ void RtlFinder::add_primitives(RtlSources& sources) const {
       if (std::find(sources.files.begin(), sources.files.end(), model->second) ==
           sources.files.end())
         sources.files.push_back(model->second);
+    }
+  }
+}
+
+/// The file that one includes by this name: beside it, else in any folder. Empty: it is missing.
+std::string RtlFinder::included(const std::string& name, const std::string& by) const {
+  const std::string beside = (fs::path(by).parent_path() / name).lexically_normal().string();
+  std::error_code ignored;
+  if (fs::is_regular_file(beside, ignored)) return beside;
+  const auto known = by_filename_.find(fs::path(name).filename().string());
+  if (known == by_filename_.end()) return {};
+  const std::string ending = "/" + name;
+  for (const std::string& path : known->second) {
+    if (path.size() > ending.size() &&
+        path.compare(path.size() - ending.size(), ending.size(), ending) == 0)
+      return path;
+  }
+  return {};
+}
+
+// Vivado looks in the folder of the file that includes another one, too, and in all of a project.
+void RtlFinder::add_includes(RtlSources& sources) const {
+  static const std::regex directive("`include\\s*\"([^\"]+)\"");
+  std::vector<std::string> files = sources.files;
+  std::set<std::string> seen(files.begin(), files.end()), folders;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string by = files[i];
+    if (is_vhdl(by)) continue;
+    const std::string text = text_of(by), always = unconditional(text, false);
+    for (std::sregex_iterator at(text.begin(), text.end(), directive), end; at != end; ++at) {
+      const std::string name = (*at)[1], path = included(name, by);
+      if (!path.empty()) {
+        if (seen.insert(path).second) files.push_back(path);
+        if (folders.insert(path.substr(0, path.size() - name.size())).second)
+          sources.include_dirs.push_back(path.substr(0, path.size() - name.size()));
+        // Its text is in the file that includes it.
+        sources.files.erase(std::remove(sources.files.begin(), sources.files.end(), path),
+                            sources.files.end());
+      } else if (always.find(at->str()) != std::string::npos) {
+        sources.why = by + " includes '" + name + "', which is missing: name its folder";
+        sources.files.clear();
+        return;
+      }
     }
   }
 }
@@ -333,6 +383,25 @@ RtlSources RtlFinder::packaged(const Module& module, const std::string& componen
   return sources;
 }
 
+/// Where a module is that `user` names, empty if nowhere. Projects keep copies of a module: of
+/// several files the one that is taken already, else the one nearest to it.
+std::string RtlFinder::file_of(const std::string& name, const std::string& user,
+                               const std::vector<std::string>& taken) const {
+  const auto only = modules_.find(name);
+  if (only == modules_.end()) return {};
+  const auto several = declared_twice_.find(name);
+  if (several == declared_twice_.end()) return only->second;
+  const auto shared = [&user](const std::string& path) {
+    return std::mismatch(path.begin(), path.end(), user.begin(), user.end()).first - path.begin();
+  };
+  const std::string* best = &several->second.front();
+  for (const std::string& path : several->second) {
+    if (std::find(taken.begin(), taken.end(), path) != taken.end()) return path;
+    if (shared(path) > shared(*best)) best = &path;
+  }
+  return *best;
+}
+
 // A file that names a module of another one needs it.
 RtlSources RtlFinder::by_name(const Module& module) const {
   RtlSources sources;
@@ -348,9 +417,8 @@ RtlSources RtlFinder::by_name(const Module& module) const {
   for (std::size_t i = 0; i < sources.files.size(); ++i) {
     const std::string file = sources.files[i], text = text_of(file);
     for (const std::string_view word : words(text, is_vhdl(file) ? "--" : "//")) {
-      const auto used = modules_.find(std::string(word));
-      if (used != modules_.end() && seen.insert(used->second).second)
-        sources.files.push_back(used->second);
+      const std::string used = file_of(std::string(word), file, sources.files);
+      if (!used.empty() && seen.insert(used).second) sources.files.push_back(used);
     }
   }
   return sources;

@@ -14,8 +14,9 @@ struct RtlSources {
   std::vector<std::string> files;  ///< absolute; empty: none were found
   std::vector<std::string> parameters =
       {};  ///< that the top declares and the design sets: "WIDTH=8"
-  std::vector<std::string> interfaces = {};  ///< what the design says of pins: "rst: reset high"
-  std::string why = {};                      ///< why no file was found, or what does not fit
+  std::vector<std::string> interfaces = {};    ///< what the design says of pins: "rst: reset high"
+  std::vector<std::string> include_dirs = {};  ///< where the files that they include lie
+  std::string why = {};                        ///< why no file was found, or what does not fit
 };
 
 /// Finds RTL of the owner's IP: by the component.xml of a packaged IP, which lists its files, else
@@ -37,13 +38,20 @@ class RtlFinder {
   const std::vector<std::string>& components_of(const Module& module) const;
   RtlSources look(const Module& module) const;
   void add_primitives(RtlSources& sources) const;
+  void add_includes(RtlSources& sources) const;
+  std::string file_of(const std::string& name, const std::string& user,
+                      const std::vector<std::string>& taken) const;
+  std::string included(const std::string& name, const std::string& by) const;
   void add_file(const std::string& path);
   RtlSources packaged(const Module& module, const std::string& component) const;
   RtlSources by_name(const Module& module) const;
 
   bool empty_;
   std::map<std::string, std::vector<std::string>> components_;  ///< by vendor:library:name
-  std::map<std::string, std::string> modules_;                  ///< name: file
+  std::map<std::string, std::string> modules_;                  ///< name: its first file
+  /// Of names that are declared in several files all of these.
+  std::map<std::string, std::vector<std::string>> declared_twice_;
+  std::map<std::string, std::vector<std::string>> by_filename_;  ///< what Verilog may include
 };
 
 }  // namespace platform::handoff

@@ -89,14 +89,13 @@ void add_intc(Device& device, const xilinx::AxiIntc& intc) {
 }
 
 void add_quad_spi(Device& device, const xilinx::AxiQuadSpi& spi) {
-  constexpr std::uint32_t word_bits = 8;
   device.driver = "SPI";
   device.compatible = "xlnx,axi-quad-spi-3.2";
   device.options = {{"FIFO_EXIST", 1},
                     {"FIFO_DEPTH", spi.fifo_depth},
                     {"SPI_SLAVE_ONLY", 0},
                     {"NUM_SS_BITS", spi.num_ss_bits},
-                    {"NUM_TRANSFER_BITS", word_bits},
+                    {"NUM_TRANSFER_BITS", spi.num_transfer_bits},
                     {"SPI_MODE", 0},
                     {"TYPE_OF_AXI4_INTERFACE", 0},
                     {"AXI4_BASEADDR", 0},
@@ -106,7 +105,7 @@ void add_quad_spi(Device& device, const xilinx::AxiQuadSpi& spi) {
   device.sdt_options = {{"FIFO_EXIST", 1},
                         {"FIFO_SIZE", spi.fifo_depth},
                         {"NUM_SS_BITS", spi.num_ss_bits},
-                        {"NUM_TRANSFER_BITS", word_bits},
+                        {"NUM_TRANSFER_BITS", spi.num_transfer_bits},
                         {"SPI_MODE", 0}};
 }
 

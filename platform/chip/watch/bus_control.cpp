@@ -85,20 +85,42 @@ Json memory(Zynq& zynq, const Json& command) {
   return {{"hex", text}};
 }
 
+/// By name: its offset, and of each field the lowest bit and how many.
+Json registers_of(const facts::HardwareMap::Device& device) {
+  Json registers = Json::object();
+  for (const auto& one : device.registers) {
+    Json fields = Json::object();
+    for (const auto& field : one.fields) {
+      unsigned low = 0, bits = 0;
+      while ((field.mask >> low & 1) == 0 && low < 31) ++low;
+      while (low + bits < 32 && (field.mask >> (low + bits) & 1) != 0) ++bits;
+      fields[field.name] = {low, bits};
+    }
+    registers[one.name] = {{"offset", one.offset}, {"fields", fields}};
+  }
+  return registers;
+}
+
 Json devices(Zynq& zynq) {
   Json list = Json::array();
-  for (const auto& device : hardware_map(zynq).devices) {
+  const facts::HardwareMap map = hardware_map(zynq);
+  for (const auto& device : map.devices) {
     if (device.way.rfind("m_axi_gp", 0) != 0) continue;
     list.push_back({{"name", device.name},
                     {"base", device.base},
                     {"size", device.size},
                     {"what", device.what},
-                    {"path", device.path}});
+                    {"path", device.path},
+                    {"registers", registers_of(device)}});
   }
+  Json interrupts = Json::object(), clocks = Json::object();
+  for (const auto& interrupt : map.interrupts) interrupts[interrupt.source] = interrupt.id;
+  for (const auto& clock : map.clocks) clocks[clock.name] = clock.hertz;
   Json settings = Json::object();
   for (const auto* parameter : vp::all_below<vp::ParameterBase>(zynq.pl()))
     settings[parameter->name()] = parameter->text();
-  return {{"devices", list}, {"settings", settings}};
+  return {
+      {"devices", list}, {"settings", settings}, {"interrupts", interrupts}, {"clocks", clocks}};
 }
 
 }  // namespace

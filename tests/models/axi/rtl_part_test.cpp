@@ -1,4 +1,5 @@
 // RTL with one interface of each kind as a part of a design.
+#include <bitset>
 #include <boost/test/unit_test.hpp>
 
 #include <bus_master.h>
@@ -285,6 +286,38 @@ BOOST_AUTO_TEST_CASE(a_wire_that_comes_from_another_clock_and_stays_is_silent) {
 }
 BOOST_AUTO_TEST_CASE(a_wire_that_comes_from_another_clock_and_does_not_stay) {
   BOOST_TEST(crossings(70'000'000) == 1u);
+}
+
+// It follows at the end of each instant, two of them in a row, and no wire of it crosses clocks.
+BOOST_AUTO_TEST_CASE(logic_without_a_clock_follows_its_inputs) {
+  kit::Simulation simulation;
+  std::ostringstream text;
+  vp::ReportRouter reports;
+  reports.redirect(text);
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000), other("other", scheduler, 70'000'000);
+  Counting counter("counter", other);
+  refused([&] { axi::RtlPart("none", MARKERVP_GATES_RTL, {}); }, {"needs a clock", "no port, ''"});
+  refused(
+      [&] {
+        axi::RtlPart("clocked", everything, {{"", &clock}});
+      },
+      {"clock 'ap_clk' is not connected"});
+  axi::RtlPart first("first", MARKERVP_GATES_RTL, {{"", &clock}});
+  axi::RtlPart second("second", MARKERVP_GATES_RTL, {{"", &clock}});
+  first.input("a", counter.value);
+  auto& inverted = first.output<std::uint8_t>("inverted");
+  second.input("a", inverted);
+  auto& twice = second.output<std::uint8_t>("inverted");
+  auto& parity = second.output<bool>("parity");
+  for (unsigned n = 1; n < 20; ++n) {
+    sc_core::sc_start(sc_core::sc_time(15, sc_core::SC_NS));
+    BOOST_TEST(twice.get() == counter.value.get());
+    BOOST_TEST(inverted.get() == static_cast<std::uint8_t>(~counter.value.get()));
+    BOOST_TEST(parity.get() == (std::bitset<8>(inverted.get()).count() % 2 == 1));
+  }
+  BOOST_TEST(counter.value.get() >= 19);
+  BOOST_TEST(reports.warnings().empty());
 }
 
 BOOST_FIXTURE_TEST_CASE(an_access_in_reset_ends_the_run, Bench) {

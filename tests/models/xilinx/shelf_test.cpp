@@ -9,6 +9,7 @@
 
 #include <simulation.h>
 #include <vp/clock_scheduler.h>
+#include <vp/error.h>
 #include <vp/report.h>
 #include <xilinx/axi_fifo_mm_s/axi_fifo_mm_s.h>
 #include <xilinx/axi_iic/axi_iic.h>
@@ -296,6 +297,46 @@ BOOST_AUTO_TEST_CASE(quad_spi_loops_back_and_reads_a_flash) {
     b.master.read(SPI_DRR);
   });
   BOOST_TEST(b.said("SPI_DRR read while it is empty"));
+}
+
+// The flash sees the same bytes, whichever bit of a word is the first one.
+BOOST_AUTO_TEST_CASE(quad_spi_has_words_of_16_bits) {
+  using namespace axi_quad_spi;
+  Bench b;
+  xilinx::AxiQuadSpiBuild build;
+  build.num_transfer_bits = 16;
+  xilinx::AxiQuadSpi spi("axi_quad_spi_0", b.clock, build);
+  spi.attach(0, std::make_shared<board::SpiFlash>());
+  b.master.socket.bind(spi.s_axi.socket);
+  b.master.simulate([&] {
+    const std::uint32_t running = spicr::SPE | spicr::Master | spicr::Manual_SS;
+    b.master.write(SPICR, spicr::LOOP | spicr::SPE | spicr::Master);
+    b.master.write(SPI_DTR, 0x1'5A5B);
+    BusMaster::wait_until(255 * period);
+    BOOST_TEST((b.master.read(SPISR) & spisr::RX_Empty) != 0u, "a word is 16 periods of 16 clocks");
+    BusMaster::wait_until(258 * period);
+    BOOST_TEST(b.master.read(SPI_DRR) == 0x5A5Bu);
+    b.master.write(SPICR, running);
+    b.master.write(SPISSR, 0);
+    for (const std::uint32_t word : {0x9F00u, 0u}) b.master.write(SPI_DTR, word);
+    BusMaster::wait_until(1'000 * period);
+    BOOST_TEST(b.master.read(SPI_DRR) == 0xFFEFu);
+    BOOST_TEST(b.master.read(SPI_DRR) == 0x4016u);
+    b.master.write(SPISSR, 1);
+    b.master.write(SPICR, running | spicr::LSB_First);
+    b.master.write(SPISSR, 0);
+    for (const std::uint32_t word : {0x00F9u, 0u}) b.master.write(SPI_DTR, word);
+    BusMaster::wait_until(2'000 * period);
+    BOOST_TEST(b.master.read(SPI_DRR) == 0xF7FFu);
+    BOOST_TEST(b.master.read(SPI_DRR) == 0x6802u);
+  });
+}
+
+BOOST_AUTO_TEST_CASE(quad_spi_has_words_of_whole_bytes) {
+  Bench b;
+  xilinx::AxiQuadSpiBuild build;
+  build.num_transfer_bits = 12;
+  BOOST_CHECK_THROW(xilinx::AxiQuadSpi("axi_quad_spi_0", b.clock, build), vp::InputError);
 }
 
 BOOST_AUTO_TEST_CASE(fifo_sends_packets_to_itself) {

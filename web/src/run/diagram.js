@@ -33,13 +33,13 @@ function waves(part, run) {
     : h("p", { class: "note" }, "None in this page: a run with ", h("code", {}, "--trace"), " has them.")];
 }
 
-/** Graphviz's picture, whose groups of class "node" have the name of their part as title. */
+/** Graphviz's picture, whose groups of class "node" have the name of their part as title, that of the PS twice. */
 function picture(text, choose, names) {
   const svg = document.importNode(new DOMParser().parseFromString(text, "image/svg+xml").documentElement, true);
   svg.setAttribute("role", "group");
   svg.setAttribute("aria-label", "Block design");
   for (const node of svg.querySelectorAll("g.node")) {
-    const name = node.querySelector("title").textContent;
+    const name = node.querySelector("title").textContent.replace(/ inputs$/, "");
     if (!names.has(name)) continue;
     const act = () => choose(name);
     node.setAttribute("role", "button");
@@ -67,6 +67,6 @@ export function diagram(run) {
     const part = parts.get(name);
     about.replaceChildren(h("h3", {}, `${name}, ${part.ip}`), ...[registers(part), traffic(part), waves(part, run)].flat().filter(Boolean));
   };
-  return section(h("p", { class: "note" }, "Streams are blue, interrupts red, other wires grey; the colour of a part is its clock. Choose a part for its registers, traffic and waves."),
+  return section(h("p", { class: "note" }, "Streams are blue, interrupts red, other wires grey; the colour of a part is its clock. What the PS takes is at the right. Choose a part for its registers, traffic and waves."),
     h("div", { class: "table-scroll diagram", tabindex: "0", role: "group", "aria-label": "Picture of the block design" }, picture(data.svg, choose, parts)), about);
 }

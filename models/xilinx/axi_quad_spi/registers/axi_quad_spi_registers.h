@@ -31,6 +31,7 @@ constexpr std::uint32_t TX_Reset = 1u << 5;
 constexpr std::uint32_t RX_Reset = 1u << 6;
 constexpr std::uint32_t Manual_SS = 1u << 7;
 constexpr std::uint32_t Inhibit = 1u << 8;
+constexpr std::uint32_t LSB_First = 1u << 9;
 }  // namespace spicr
 
 /// Bits of SPISR.
@@ -60,7 +61,7 @@ inline constexpr vp::RegisterInfo registers[] = {
     {"SRR", SRR, 0, vp::Access::write_only, 0xF, "0xA resets the core"},
     {"SPICR", SPICR, 0x00000180, vp::Access::read_write, 0x3FF, "Control"},
     {"SPISR", SPISR, 0x00000025, vp::Access::read_only, 0, "State of the FIFOs"},
-    {"SPI_DTR", SPI_DTR, 0, vp::Access::write_only, 0xFF, "Send FIFO"},
+    {"SPI_DTR", SPI_DTR, 0, vp::Access::write_only, 0xFFFFFFFF, "Send FIFO"},
     {"SPI_DRR", SPI_DRR, 0, vp::Access::read_only, 0, "Receive FIFO"},
     {"SPISSR", SPISSR, 0xFFFFFFFF, vp::Access::read_write, 0xFFFFFFFF, "0 selects a slave"},
     {"TX_OCY", TX_OCY, 0, vp::Access::read_only, 0, "Words to send, less one"},

@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "input_error.h"
@@ -79,6 +80,20 @@ BOOST_AUTO_TEST_CASE(the_address_says_by_which_port_the_processor_gets_there) {
   text = replaced(text, R"(BUSNAME="ps_M_AXI_GP0" NAME="M_AXI_GP0")",
                   R"(BUSNAME="__NOC__" NAME="M_AXI_GP0")");
   BOOST_TEST(has(import_design(read_hwh(text, "small.hwh")).text, "ps.M_AXI_GP1:"));
+}
+
+BOOST_AUTO_TEST_CASE(segments_of_a_master_without_a_bus_are_left_out) {
+  std::string text = kit::small_handoff().text();
+  const std::string gp0 = kit::bus("MASTER", "M_AXI_GP0", "ps_M_AXI_GP0");
+  const std::string own = kit::segment("M_AXI_GP0", "own_0", "S00_AXI", "0x43C00000", "0x43C0FFFF");
+  text = kit::replaced(text, gp0, gp0 + kit::bus("MASTER", "M_AXI_GP1", "__NOC__"));
+  text = kit::replaced(
+      text, own, own + kit::segment("M_AXI_GP1", "own_0", "S00_AXI", "0x83C00000", "0x83C0FFFF"));
+  const ImportedDesign design = import_design(read_hwh(text, "small.hwh"));
+  BOOST_TEST(has(design.text, "own_0.S00_AXI: [0x43C00000, 64 KiB]"));
+  BOOST_TEST(!has(design.text, "0x83C00000"));
+  BOOST_TEST(design.notes.back().find("own_0 at 0x83C00000 for ps.M_AXI_GP1, which is joined to "
+                                      "nothing") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_small_memory_has_its_buffers_in_its_upper_half) {
@@ -245,18 +260,38 @@ BOOST_AUTO_TEST_CASE(devices_for_linux) {
                  "\t\t\t\tcompatible = \"xlnx,axi-dma-s2mm-channel\";\n"));
 }
 
+BOOST_AUTO_TEST_CASE(registers_by_the_names_of_the_hand_off) {
+  const std::string block =
+      "<ADDRESSBLOCKS><ADDRESSBLOCK INTERFACE=\"S00_AXI\"><REGISTERS><REGISTER NAME=\"CTRL\">"
+      "<PROPERTY NAME=\"ADDRESS_OFFSET\" VALUE=\"0x10\"/><FIELDS><FIELD NAME=\"MODE\">"
+      "<PROPERTY NAME=\"BIT_OFFSET\" VALUE=\"4\"/><PROPERTY NAME=\"BIT_WIDTH\" VALUE=\"3\"/>"
+      "</FIELD></FIELDS></REGISTER></REGISTERS></ADDRESSBLOCK></ADDRESSBLOCKS>";
+  const std::string text = kit::small_handoff().text();
+  const std::size_t own = text.find("FULLNAME=\"/own_0\"");
+  const std::size_t inside = text.find('>', own) + 1;
+  const auto names = [&](const std::string& hwh) {
+    return register_names(read_hwh(hwh, "small.hwh"));
+  };
+  BOOST_TEST(names(text) == "{\n}\n");
+  const auto found =
+      nlohmann::json::parse(names(text.substr(0, inside) + block + text.substr(inside)));
+  BOOST_TEST(found.dump() == R"({"own_0":{"CTRL":{"fields":{"MODE":[4,3]},"offset":16}}})");
+}
+
 BOOST_AUTO_TEST_CASE(a_picture_of_the_design) {
   const std::string graph =
       diagram(parse_design(imported(kit::small_handoff()).text, "design.yaml"));
-  BOOST_TEST(
-      has(graph, "\"axi_gpio_0\" [label=\"axi_gpio_0\\naxi_gpio 2.0\\n0x41200000, 64 KiB\""));
-  BOOST_TEST(has(graph, "\"periph\" -> \"axi_gpio_0\" [penwidth=2]"));
-  BOOST_TEST(has(graph, "\"axi_dma_0\" -> \"axi_dma_0\" [penwidth=3, color=\"#2a6fbb\"]"));
-  BOOST_TEST(has(graph, "\"lines\" -> \"ps\" [color=\"#c0392b\""));
-  BOOST_TEST(has(graph,
-                 "\"own_0\" [label=\"own_0\\n"
-                 "own 1.0\\n0x43C00000, 64 KiB\", "
-                 "fillcolor=\"#cfe8ff\", style=\"filled,dashed\"]"));
+  for (
+      const char* what :
+      {R"("axi_gpio_0" [label="axi_gpio_0\naxi_gpio 2.0\n0x41200000, 64 KiB", tooltip="xilinx.com:ip:axi_gpio:2.0")",
+       R"("periph" -> "axi_gpio_0" [penwidth=2, weight=3, tooltip="periph.M01_AXI to axi_gpio_0.S_AXI"])",
+       R"("axi_dma_0" -> "axi_dma_0" [penwidth=3, color="#2a6fbb")",
+       // What the PS takes is a node of its own, and lines of one kind between two parts are one.
+       R"("lines" -> "ps inputs" [color="#c0392b", tooltip="lines.dout to ps.IRQ_F2P"])",
+       R"("axi_dma_0" -> "mem" [penwidth=2, weight=3, label="2", )", R"(subgraph cluster_loose)",
+       R"(<td bgcolor="#cfe8ff">ps.FCLK_CLK0</td>)",
+       R"("own_0" [label="own_0\nown 1.0\n0x43C00000, 64 KiB", tooltip="me:user:own:1.0", fillcolor="#cfe8ff", style="filled,dashed"])"})
+    BOOST_TEST(has(graph, what), what << " in " << graph);
   BOOST_TEST(input_error([&] { write_diagram({}, "x.pdf"); }).find("must end in .svg") !=
              std::string::npos);
 }

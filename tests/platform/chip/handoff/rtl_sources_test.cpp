@@ -156,6 +156,44 @@ BOOST_FIXTURE_TEST_CASE(primitives_of_the_chip_want_a_model, Folders) {
   BOOST_TEST(why().find("instantiates IBUFDS") != std::string::npos);
 }
 
+// As projects keep copies of modules: the one beside what instantiates it.
+BOOST_FIXTURE_TEST_CASE(of_two_copies_of_a_module_the_nearest_one, Folders) {
+  std::filesystem::create_directory(*this / "copies");
+  write("copies/helper.sv", "module helper(input clk);\nendmodule\nmodule other;\nendmodule\n");
+  for (const auto& folders : {std::vector{folder("copies"), folder("plain")},
+                              std::vector{folder("plain"), folder("copies")}}) {
+    const RtlSources sources = RtlFinder(folders).find(own());
+    BOOST_TEST(sources.files.size() == 2u);
+    BOOST_TEST(sources.files.back() ==
+               std::filesystem::absolute(folder("plain/helper.sv")).string());
+  }
+  write("plain/own.v", "module own;\n other o();\n helper h();\nendmodule\n");
+  const RtlSources both = RtlFinder({folder("copies"), folder("plain")}).find(own());
+  BOOST_TEST(both.files.size() == 2u, "other comes with a helper of its own");
+}
+
+// As Vivado finds them: beside the file, or anywhere in the folders. What is included is no source.
+BOOST_FIXTURE_TEST_CASE(files_that_verilog_includes, Folders) {
+  const auto find = [this] { return RtlFinder({folder("plain")}).find(own()); };
+  write("plain/own.v",
+        "`include \"helper.sv\"\n`include \"sizes.vh\"\nmodule own;\n helper h();\nendmodule\n");
+  BOOST_TEST(find().files.empty());
+  BOOST_TEST(find().why.find("own.v includes 'sizes.vh', which is missing: name its folder") !=
+             std::string::npos);
+  std::filesystem::create_directory(*this / "plain/more");
+  write("plain/more/sizes.vh", "`include \"more/deeper.svh\"\n");
+  BOOST_TEST(find().why.find("sizes.vh includes 'more/deeper.svh'") != std::string::npos);
+  write("plain/more/deeper.svh", "");
+  const RtlSources sources = find();
+  const Names expected{"own.v"};
+  BOOST_TEST(names(sources) == expected);
+  BOOST_TEST(sources.include_dirs.size() == 2u);
+  BOOST_TEST(sources.include_dirs.front() + "own.v" == sources.files.front());
+  BOOST_TEST(sources.include_dirs.back() == sources.include_dirs.front() + "more/");
+  write("plain/own.v", "`ifdef SIMULATION\n`include \"gone.vh\"\n`endif\nmodule own;\nendmodule\n");
+  BOOST_TEST(find().why == "");
+}
+
 // Of those that say nothing the vendor's tools say low.
 BOOST_FIXTURE_TEST_CASE(a_reset_is_high_if_the_design_says_so, Folders) {
   handoff::Module module = own();

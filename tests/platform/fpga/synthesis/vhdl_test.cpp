@@ -66,6 +66,24 @@ void check_says(const std::string& refusal, const std::vector<std::string>& part
 
 BOOST_FIXTURE_TEST_SUITE(vhdl, Folder)
 
+// As the top, and inside another one.
+BOOST_AUTO_TEST_CASE(an_entity_may_be_named_as_a_keyword_of_verilog) {
+  std::string text = counter;
+  for (std::size_t at; (at = text.find("Counter")) != std::string::npos;)
+    text.replace(at, 7, "reg");
+  for (std::size_t at; (at = text.find("signal reg")) != std::string::npos;)
+    text.replace(at, 10, "signal own");
+  for (const std::string used : {"(reg)", " reg + 1", "then reg "})
+    text.replace(text.find(used) + used.find("reg"), 3, "own");
+  write("reg.vhd", text);
+  BOOST_TEST(figures("reg").netlist.cells.ff == 8u);
+  write("outer.vhd", logic +
+                         "entity outer is port (clk : in std_logic; q : out std_logic_vector(7 "
+                         "downto 0)); end;\narchitecture rtl of outer is begin\n"
+                         "  inner: entity work.reg port map (clk, q);\nend;\n");
+  BOOST_TEST(figures("outer").netlist.cells.ff == 8u);
+}
+
 BOOST_AUTO_TEST_CASE(a_counter_has_the_figures_of_its_generics) {
   write("counter.vhd", counter);
   BOOST_TEST(figures("Counter").netlist.cells.ff == 8u);

@@ -1,0 +1,9 @@
+// Logic without a clock.
+module gates (
+    input  logic [7:0] a,
+    output logic [7:0] inverted,
+    output logic       parity
+);
+  assign inverted = ~a;
+  assign parity   = ^a;
+endmodule
