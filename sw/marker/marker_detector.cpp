@@ -164,17 +164,27 @@ Refusal MarkerDetector::read_blob(const CameraFrame& near, const Extremes& extre
     refusal = read_marker(near, guess, book_, options_.detection, marker);
   }
   if (refusal == Refusal::none || refusal == Refusal::plain || !has_outline) return refusal;
+  return read_outline(near, extremes, marker) ? Refusal::none : refusal;
+}
+
+bool MarkerDetector::read_outline(const CameraFrame& near, const Extremes& extremes,
+                                  DetectedMarker& marker) const {
   DetectionOptions options = options_.detection;
   options.white_border = std::max(options.white_border, hidden_cells);
   options.exact = true;
   options.fit.maximum_raggedness = std::max(options.fit.maximum_raggedness, hidden_raggedness);
   const OutlineQuads outline = quads_of_outline(near, extremes[0]);
   for (std::uint32_t i = 0; i < outline.count; ++i) {
-    if (read_marker(near, outline.quads[i], book_, options, marker) == Refusal::none) {
-      return Refusal::none;
+    if (read_marker(near, outline.quads[i], book_, options, marker) == Refusal::none) return true;
+  }
+  for (std::uint32_t i = 0; i < outline.count; ++i) {
+    if (read_narrow_marker(near, outline.quads[i], book_, options, marker) == Refusal::none) {
+      return true;
     }
   }
-  return refusal;
+  Quad guess{};
+  return largest_quad(extremes, guess) &&
+         read_narrow_marker(near, guess, book_, options, marker) == Refusal::none;
 }
 
 void MarkerDetector::find_poses(const Camera& camera, Detections& found) {

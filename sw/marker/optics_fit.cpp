@@ -84,7 +84,7 @@ void widen(const GeneralLens& lens, double common_shift, QuadFit& fit) {
 }  // namespace
 
 QuadFit guess_through_optics(const CameraFrame& frame, const Quad& corners,
-                             const QuadFitOptions& options) {
+                             const QuadFitOptions& options, double smallest_cell) {
   const GeneralLens& lens = frame.optics->lens;
   QuadFit fit{};
   fit.image = corners;
@@ -97,7 +97,7 @@ QuadFit guess_through_optics(const CameraFrame& frame, const Quad& corners,
   double pixel = 0;
   for (Side& side : sides_of(fit.ideal, fit.image)) {
     const double cell = cell_at(side, options);
-    if (!(cell >= least_cell * lay_in_picture(lens, side, pixel))) return fit;
+    if (!(cell >= smallest_cell * lay_in_picture(lens, side, pixel))) return fit;
   }
   fit.refusal = Refusal::none;
   return fit;

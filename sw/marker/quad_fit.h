@@ -23,6 +23,9 @@ using Extremes = std::array<Pixel, 8>;
 /// rolled, and any other choice cuts area off. False if no four make a convex quadrilateral.
 bool largest_quad(const Extremes& extremes, Quad& quad);
 
+/// The edges of a marker with smaller cells cannot be measured, px.
+inline constexpr double least_cell = 1.5;
+
 struct QuadFitOptions {
   std::uint32_t cells = 6;          ///< of the marker's side; the outermost are black
   double minimum_contrast = 20;     ///< grey levels between the sides of an edge
