@@ -86,6 +86,15 @@ void fetch(const GreyImage& image, const Box& part) {
   }
 }
 
+/// What is known of a marker's corners but for what all of them share.
+CornerWeights own_weights(const QuadFit& fit) {
+  std::array<double, 64> own = fit.covariance;
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned k = 0; k < 8; ++k) own[8 * i + k] -= fit.common[i] * fit.common[k];
+  }
+  return weights_of(own);
+}
+
 }  // namespace
 
 bool Board::find(std::uint32_t id, Places& places) const {
@@ -191,7 +200,8 @@ void MarkerDetector::find_poses(const Camera& camera, Detections& found) {
   if (options_.board.kind == Board::Kind::none) {
     for (std::uint32_t i = 0; i < found.count; ++i) {
       const QuadFit& fit = found.markers[i].marker.fit;
-      seen_[0] = {single_marker(options_.board.marker_side), fit.ideal, weights_of(fit.covariance)};
+      seen_[0] = {single_marker(options_.board.marker_side), fit.ideal, own_weights(fit),
+                  fit.common};
       found.markers[i].pose = estimate_board_pose(seen_.data(), 1, camera);
     }
     return;
@@ -205,7 +215,8 @@ void MarkerDetector::find_poses(const Camera& camera, Detections& found) {
     SeenMarker& seen = seen_[found.board_markers];
     if (times > 1 || !options_.board.find(marker.id, seen.places)) continue;
     seen.corners = marker.fit.ideal;
-    seen.weights = weights_of(marker.fit.covariance);
+    seen.weights = own_weights(marker.fit);
+    seen.common = marker.fit.common;
     ++found.board_markers;
   }
   found.board = estimate_board_pose(seen_.data(), found.board_markers, camera);

@@ -62,13 +62,12 @@ void widen(const GeneralLens& lens, double common_shift, QuadFit& fit) {
   std::array<double, 4> scale{};
   double pixel = 0;
   for (unsigned i = 0; i < 4; ++i) scale[i] = lay_in_picture(lens, sides[i], pixel);
-  std::array<double, 8> all{};
   for (unsigned i = 0; i < 4; ++i) {
     const unsigned before = (i + 3) % 4, next = (i + 1) % 4;
     const double shift = common_shift * deviation, own = side_error * deviation;
     const Point both = moved(sides[before], sides[i], shift * scale[before], shift * scale[i]);
-    all[2 * i] = both.x;
-    all[2 * i + 1] = both.y;
+    fit.common[2 * i] = both.x;
+    fit.common[2 * i + 1] = both.y;
     std::array<double, 8> one{};
     const Point from = moved(sides[before], sides[i], 0, own * scale[i]);
     const Point to = moved(sides[i], sides[next], own * scale[i], 0);
@@ -78,7 +77,7 @@ void widen(const GeneralLens& lens, double common_shift, QuadFit& fit) {
     one[2 * next + 1] = to.y;
     add_product(fit.covariance, one);
   }
-  add_product(fit.covariance, all);
+  add_product(fit.covariance, fit.common);
 }
 
 }  // namespace

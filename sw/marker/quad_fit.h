@@ -77,6 +77,9 @@ struct QuadFit {
   Quad image;  ///< the same in the picture
   /// Covariance of `ideal`, px², row by row, in the order x0 y0 x1 … y3. Neighbours share a side.
   std::array<double, 64> covariance;
+  /// Of `covariance`, what all markers of the picture share: a deviation of all corners together,
+  /// px. All 0 where levels are light.
+  std::array<double, 8> common;
   double dark, bright;  ///< grey levels on both sides of the edges, mean of the four
   double raggedness;    ///< px: that of the worst side
   double reach;         ///< px: half the width of an edge
