@@ -30,6 +30,8 @@ Vector3d vector(const Place& place) {
 /// A solution whose sum of squared errors is so many times that of the other at first does not come
 /// near it.
 constexpr double rival = 1e4;
+/// And one that is so much worse at last is not true, whatever the markers share.
+constexpr double far_worse = 100;
 
 struct Solution {
   Matrix3d rotation;
@@ -248,10 +250,11 @@ class Corners {
     }
   }
 
-  BoardPose pose(const Descent& descent) const {
+  /// `is_likely`: what the markers share is worth its time.
+  BoardPose pose(const Descent& descent, bool is_likely) const {
     const Normal::Factor factor = descent.normal.factor();
     BoardPose pose = descent.pose(factor);
-    if (shares()) add_shared(descent.solution, factor, pose);
+    if (is_likely && shares()) add_shared(descent.solution, factor, pose);
     return pose;
   }
 
@@ -276,6 +279,7 @@ class Corners {
     return *largest;
   }
 
+  /// True if the markers have something that they share.
   bool shares() const {
     for (std::uint32_t i = 0; i < count_; ++i) {
       for (const double way : markers_[i].common) {
@@ -447,10 +451,11 @@ BoardPoses estimate_board_pose(const SeenMarker* markers, std::uint32_t count,
   corners.refine(first);
   if (!std::isfinite(first.error)) return poses;
   poses.valid = true;
-  poses.best = poses.other = corners.pose(first);
+  poses.best = poses.other = corners.pose(first, true);
   if (!second.is_seen) return poses;
   if (second.error < rival * (1 + first.error)) corners.refine(second);
-  poses.other = corners.pose(second);
+  const bool may_be_true = second.error < far_worse * (1 + first.error);
+  poses.other = corners.pose(second, may_be_true);
   if (second.error < first.error) std::swap(poses.best, poses.other);
   return poses;
 }
