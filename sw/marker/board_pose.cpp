@@ -4,7 +4,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace marker {
 namespace {
@@ -28,6 +30,8 @@ Vector3d vector(const Place& place) {
 /// A solution whose sum of squared errors is so many times that of the other at first does not come
 /// near it.
 constexpr double rival = 1e4;
+/// And one that is so much worse at last is not true, whatever the markers share.
+constexpr double far_worse = 100;
 
 struct Solution {
   Matrix3d rotation;
@@ -177,11 +181,10 @@ struct Descent {
   double error;
   bool is_seen;  ///< all corners are in front of the camera
 
-  BoardPose pose() const {
+  BoardPose pose(const Normal::Factor& factor) const {
     BoardPose pose{};
     RowMajor<3>::Map(pose.rotation.data()) = solution.rotation;
     Vector3d::Map(pose.translation.data()) = solution.translation;
-    const Normal::Factor factor = normal.factor();
     for (unsigned column = 0; column < 6; ++column) {
       RowMajor<6>::Map(pose.covariance.data()).col(column) =
           factor.solve(Vector6d(Vector6d::Unit(column)));
@@ -247,6 +250,14 @@ class Corners {
     }
   }
 
+  /// `is_likely`: what the markers share is worth its time.
+  BoardPose pose(const Descent& descent, bool is_likely) const {
+    const Normal::Factor factor = descent.normal.factor();
+    BoardPose pose = descent.pose(factor);
+    if (is_likely && shares()) add_shared(descent.solution, factor, pose);
+    return pose;
+  }
+
  private:
   static constexpr unsigned most_steps = 30;
   static constexpr unsigned most_halvings = 8;
@@ -266,6 +277,43 @@ class Corners {
       }
     }
     return *largest;
+  }
+
+  /// True if the markers have something that they share.
+  bool shares() const {
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      for (const double way : markers_[i].common) {
+        if (way != 0) return true;
+      }
+    }
+    return false;
+  }
+
+  /// A deviation of what the markers share moves the pose by N⁻¹JᵀΩc, and leaves of the corners'
+  /// errors what the pose cannot follow; so much of their χ² says nothing.
+  void add_shared(const Solution& s, const Normal::Factor& factor, BoardPose& pose) const {
+    Vector6d slope = Vector6d::Zero();
+    double with_error = 0, square = 0;
+    work(Work::marker_weighings, count_);
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      Rows rows;
+      if (!look(s, markers_[i], rows)) return;
+      rows.weigh(markers_[i].weights);
+      const double* weight = markers_[i].weights.data();
+      for (const double(&row)[7] : rows.at) {
+        double way = 0;
+        for (std::ptrdiff_t k = 0; k <= &row - rows.at; ++k)
+          way += *weight++ * markers_[i].common[k];
+        slope += way * Eigen::Map<const Vector6d>(row);
+        with_error += way * row[6];
+        square += way * way;
+      }
+    }
+    const Vector6d move = factor.solve(slope);
+    RowMajor<6>::Map(pose.covariance.data()) += move * move.transpose();
+    const double unfollowed = square - slope.dot(move);
+    pose.chi_squared -= with_error * with_error / (1 + std::max(unfollowed, 0.0));
+    pose.chi_squared = std::max(pose.chi_squared, 0.0);
   }
 
   /// Least squares over the rays on which the corners lie.
@@ -403,10 +451,11 @@ BoardPoses estimate_board_pose(const SeenMarker* markers, std::uint32_t count,
   corners.refine(first);
   if (!std::isfinite(first.error)) return poses;
   poses.valid = true;
-  poses.best = poses.other = first.pose();
+  poses.best = poses.other = corners.pose(first, true);
   if (!second.is_seen) return poses;
   if (second.error < rival * (1 + first.error)) corners.refine(second);
-  poses.other = second.pose();
+  const bool may_be_true = second.error < far_worse * (1 + first.error);
+  poses.other = corners.pose(second, may_be_true);
   if (second.error < first.error) std::swap(poses.best, poses.other);
   return poses;
 }

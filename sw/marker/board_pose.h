@@ -54,6 +54,9 @@ struct SeenMarker {
   Places places;
   Quad corners;  ///< ideal px, in the order of `places`
   CornerWeights weights;
+  /// How they move, px, with what all markers of the picture share (QuadFit::common), of which
+  /// `weights` know nothing.
+  std::array<double, 8> common;
 };
 
 /// Where the board is: X = R·U + T.
@@ -76,7 +79,8 @@ struct BoardPoses {
 
 /// IPPE (Collins and Bartoli 2014) on the largest marker gives two poses; the better one is refined
 /// by Gauss–Newton on the corners of all markers, weighted by their covariances, and so is the
-/// other, unless it is far worse.
+/// other, unless it is far worse. What all markers share moves no weight, since it would leave a
+/// marker's size unused: it widens the covariance, and the corners are expected to show it.
 BoardPoses estimate_board_pose(const SeenMarker* markers, std::uint32_t count,
                                const Camera& camera);
 

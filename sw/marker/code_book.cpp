@@ -112,6 +112,10 @@ double CodeBook::false_share() const {
   return false_share_of(*dictionary_, corrects());
 }
 
+double CodeBook::exact_false_share() const {
+  return false_share_of(*dictionary_, 0);
+}
+
 std::uint64_t CodeBook::part(std::uint64_t word, std::uint32_t index) const {
   const std::uint32_t size = first_bit_[index + 1] - first_bit_[index];
   return word >> first_bit_[index] & ((std::uint64_t{1} << size) - 1);

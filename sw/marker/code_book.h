@@ -60,6 +60,8 @@ class CodeBook {
 
   /// Share of random words that are taken for an ID.
   double false_share() const;
+  /// The same of words in which no cell is corrected.
+  double exact_false_share() const;
 
   Match look_up(std::uint64_t word) const;
 

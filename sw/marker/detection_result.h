@@ -70,7 +70,7 @@ struct DetectionResult {
 static_assert(std::is_trivially_copyable_v<DetectionResult>, "published as bytes");
 
 /// The kind under which DetectionResult is published.
-inline constexpr std::uint32_t detection_result_kind = HAL_KIND('M', 'K', 'I', '3');
+inline constexpr std::uint32_t detection_result_kind = HAL_KIND('M', 'K', 'I', '4');
 
 /// So much of a result is published.
 inline std::size_t published_bytes(const DetectionResult& result) {

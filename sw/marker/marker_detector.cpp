@@ -86,6 +86,15 @@ void fetch(const GreyImage& image, const Box& part) {
   }
 }
 
+/// What is known of a marker's corners but for what all of them share.
+CornerWeights own_weights(const QuadFit& fit) {
+  std::array<double, 64> own = fit.covariance;
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned k = 0; k < 8; ++k) own[8 * i + k] -= fit.common[i] * fit.common[k];
+  }
+  return weights_of(own);
+}
+
 }  // namespace
 
 bool Board::find(std::uint32_t id, Places& places) const {
@@ -164,24 +173,35 @@ Refusal MarkerDetector::read_blob(const CameraFrame& near, const Extremes& extre
     refusal = read_marker(near, guess, book_, options_.detection, marker);
   }
   if (refusal == Refusal::none || refusal == Refusal::plain || !has_outline) return refusal;
+  return read_outline(near, extremes, marker) ? Refusal::none : refusal;
+}
+
+bool MarkerDetector::read_outline(const CameraFrame& near, const Extremes& extremes,
+                                  DetectedMarker& marker) const {
   DetectionOptions options = options_.detection;
   options.white_border = std::max(options.white_border, hidden_cells);
   options.exact = true;
   options.fit.maximum_raggedness = std::max(options.fit.maximum_raggedness, hidden_raggedness);
   const OutlineQuads outline = quads_of_outline(near, extremes[0]);
   for (std::uint32_t i = 0; i < outline.count; ++i) {
-    if (read_marker(near, outline.quads[i], book_, options, marker) == Refusal::none) {
-      return Refusal::none;
+    if (read_marker(near, outline.quads[i], book_, options, marker) == Refusal::none) return true;
+  }
+  for (std::uint32_t i = 0; i < outline.count; ++i) {
+    if (read_narrow_marker(near, outline.quads[i], book_, options, marker) == Refusal::none) {
+      return true;
     }
   }
-  return refusal;
+  Quad guess{};
+  return largest_quad(extremes, guess) &&
+         read_narrow_marker(near, guess, book_, options, marker) == Refusal::none;
 }
 
 void MarkerDetector::find_poses(const Camera& camera, Detections& found) {
   if (options_.board.kind == Board::Kind::none) {
     for (std::uint32_t i = 0; i < found.count; ++i) {
       const QuadFit& fit = found.markers[i].marker.fit;
-      seen_[0] = {single_marker(options_.board.marker_side), fit.ideal, weights_of(fit.covariance)};
+      seen_[0] = {single_marker(options_.board.marker_side), fit.ideal, own_weights(fit),
+                  fit.common};
       found.markers[i].pose = estimate_board_pose(seen_.data(), 1, camera);
     }
     return;
@@ -195,7 +215,8 @@ void MarkerDetector::find_poses(const Camera& camera, Detections& found) {
     SeenMarker& seen = seen_[found.board_markers];
     if (times > 1 || !options_.board.find(marker.id, seen.places)) continue;
     seen.corners = marker.fit.ideal;
-    seen.weights = weights_of(marker.fit.covariance);
+    seen.weights = own_weights(marker.fit);
+    seen.common = marker.fit.common;
     ++found.board_markers;
   }
   found.board = estimate_board_pose(seen_.data(), found.board_markers, camera);

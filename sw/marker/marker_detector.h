@@ -114,6 +114,9 @@ class MarkerDetector {
   /// `near`: of which no more is looked at than what is around the blob.
   Refusal read_blob(const CameraFrame& near, const Extremes& extremes,
                     DetectedMarker& marker) const;
+  /// A blob that is no quadrilateral itself, or too narrow a one.
+  bool read_outline(const CameraFrame& near, const Extremes& extremes,
+                    DetectedMarker& marker) const;
 
   CodeBook book_;
   DetectorOptions options_;

@@ -1,3 +1,4 @@
+#include <marker/board_pose.h>
 #include <marker/marker_reader.h>
 #include <marker/optics.h>
 #include <marker/optics_fit.h>
@@ -18,6 +19,9 @@ constexpr std::uint32_t samples = 9;
 constexpr std::uint32_t white = 255;
 /// Shares of a cell: by so much corners may be off before its nine places leave it.
 constexpr double most_shift = 0.15;
+/// Cells that are narrower still cannot be read, px; and so far off, in x and in y, are the corners
+/// of such an outline (measured).
+constexpr double least_narrow_cell = 0.6, narrow_deviation = 0.3;
 
 /// A cell in the picture: its middle, and the ways to the places right and below. Perspective and
 /// lens bend nothing within a cell that matters.
@@ -88,6 +92,33 @@ bool are_same_cells(const Quad& one, const Quad& other, std::uint32_t side) {
   return farthest <= most * most * shortest;
 }
 
+/// The sums of the darkest cell and of the brightest.
+std::array<std::uint32_t, 2> extremes_of(const CellLook& look) {
+  const auto end = look.sums.begin() + (look.cells + 2) * (look.cells + 2);
+  const auto [least, most] = std::minmax_element(look.sums.begin(), end);
+  return {*least, *most};
+}
+
+/// The mean grey levels of black cells and of white ones, in a few steps from the extremes.
+void part_levels(const CellLook& look, double& dark, double& bright) {
+  constexpr unsigned steps = 3;
+  const std::uint32_t cells = (look.cells + 2) * (look.cells + 2);
+  auto [low, high] = extremes_of(look);
+  for (unsigned step = 0; step < steps; ++step) {
+    const std::uint32_t limit = (low + high) / 2;
+    std::uint32_t below = 0, above = 0, count = 0;
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const bool is_dark = look.sums[i] <= limit;
+      (is_dark ? below : above) += look.sums[i];
+      if (is_dark) ++count;
+    }
+    low = below / count;
+    high = above / (cells - count);
+  }
+  dark = static_cast<double>(low) / samples;
+  bright = static_cast<double>(high) / samples;
+}
+
 }  // namespace
 
 CellLook look_at_cells(const CameraFrame& frame, const Quad& corners, std::uint32_t cells) {
@@ -121,9 +152,8 @@ CellLook look_at_cells(const CameraFrame& frame, const Quad& corners, std::uint3
 }
 
 bool is_plain(const CellLook& look, double minimum_contrast) {
-  const auto end = look.sums.begin() + (look.cells + 2) * (look.cells + 2);
-  const auto [least, most] = std::minmax_element(look.sums.begin(), end);
-  return *most - *least < minimum_contrast / 2 * samples;
+  const auto [least, most] = extremes_of(look);
+  return most - least < minimum_contrast / 2 * samples;
 }
 
 CellReading read_cells(const CellLook& look, double dark, double bright) {
@@ -199,8 +229,8 @@ Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook&
   const std::uint32_t cells = book.dictionary().cells;
   const QuadFitOptions all = fit_options(options, cells);
   const bool other_lens = has_other_lens(frame);
-  const QuadFit guessed =
-      other_lens ? guess_through_optics(frame, guess, all) : guess_quad(frame.lens, guess, all);
+  const QuadFit guessed = other_lens ? guess_through_optics(frame, guess, all, least_cell)
+                                     : guess_quad(frame.lens, guess, all);
   if (guessed.refusal != Refusal::none) return guessed.refusal;
   CellLook look = look_at_cells(frame, guessed.ideal, cells);
   if (frame.in_dma_memory) work(Work::code_cells_dma, std::uint64_t{cells + 2} * (cells + 2));
@@ -233,6 +263,26 @@ Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook&
   // Only what is a marker is worth all of its edges. Turned by r quarters, its own top left is the
   // r-th corner clockwise from the first.
   return measure(frame, book.dictionary(), options, fit, match.rotation, marker);
+}
+
+Refusal read_narrow_marker(const CameraFrame& frame, const Quad& corners, const CodeBook& book,
+                           const DetectionOptions& options, DetectedMarker& marker) {
+  const std::uint32_t cells = book.dictionary().cells;
+  if (book.exact_false_share() > tolerable_false_share) return Refusal::unknown;
+  const QuadFitOptions all = fit_options(options, cells);
+  QuadFit fit = guess_through_optics(frame, corners, all, least_narrow_cell);
+  if (fit.refusal != Refusal::none) return fit.refusal;
+  const CellLook look = look_at_cells(frame, fit.ideal, cells);
+  if (frame.in_dma_memory) work(Work::code_cells_dma, std::uint64_t{cells + 2} * (cells + 2));
+  if (is_plain(look, all.minimum_contrast)) return Refusal::plain;
+  part_levels(look, fit.dark, fit.bright);
+  const CellReading reading = read_cells(look, fit.dark, fit.bright);
+  if (reading.white_border > options.white_border) return Refusal::border;
+  const CodeBook::Match match = book.look_up(reading.word);
+  if (!match.found || match.corrected > 0) return Refusal::unknown;
+  fit.covariance = independent_corners(narrow_deviation);
+  marker = {match.id, 0, counted_from(fit, match.rotation), frame.part, {}};
+  return Refusal::none;
 }
 
 bool measure_again(const CameraFrame& frame, const Dictionary& dictionary,

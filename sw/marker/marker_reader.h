@@ -52,6 +52,13 @@ struct DetectedMarker {
 Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook& book,
                     const DetectionOptions& options, DetectedMarker& marker);
 
+/// A marker so far away, or seen so much from the side, that its cells are too narrow for
+/// read_marker(): what is around an edge is blurred by the code behind it. `corners`: where the
+/// outline has them, and where they stay, known to a third of a pixel. Only an exact word counts,
+/// and only of a dictionary whose words random cells hardly ever are. For frames with optics.
+Refusal read_narrow_marker(const CameraFrame& frame, const Quad& corners, const CodeBook& book,
+                           const DetectionOptions& options, DetectedMarker& marker);
+
 /// Measures a marker that read_marker() found once more, as the frame's optics are now. False: it
 /// stays as it was.
 bool measure_again(const CameraFrame& frame, const Dictionary& dictionary,

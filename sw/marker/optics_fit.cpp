@@ -62,13 +62,12 @@ void widen(const GeneralLens& lens, double common_shift, QuadFit& fit) {
   std::array<double, 4> scale{};
   double pixel = 0;
   for (unsigned i = 0; i < 4; ++i) scale[i] = lay_in_picture(lens, sides[i], pixel);
-  std::array<double, 8> all{};
   for (unsigned i = 0; i < 4; ++i) {
     const unsigned before = (i + 3) % 4, next = (i + 1) % 4;
     const double shift = common_shift * deviation, own = side_error * deviation;
     const Point both = moved(sides[before], sides[i], shift * scale[before], shift * scale[i]);
-    all[2 * i] = both.x;
-    all[2 * i + 1] = both.y;
+    fit.common[2 * i] = both.x;
+    fit.common[2 * i + 1] = both.y;
     std::array<double, 8> one{};
     const Point from = moved(sides[before], sides[i], 0, own * scale[i]);
     const Point to = moved(sides[i], sides[next], own * scale[i], 0);
@@ -78,13 +77,13 @@ void widen(const GeneralLens& lens, double common_shift, QuadFit& fit) {
     one[2 * next + 1] = to.y;
     add_product(fit.covariance, one);
   }
-  add_product(fit.covariance, all);
+  add_product(fit.covariance, fit.common);
 }
 
 }  // namespace
 
 QuadFit guess_through_optics(const CameraFrame& frame, const Quad& corners,
-                             const QuadFitOptions& options) {
+                             const QuadFitOptions& options, double smallest_cell) {
   const GeneralLens& lens = frame.optics->lens;
   QuadFit fit{};
   fit.image = corners;
@@ -97,7 +96,7 @@ QuadFit guess_through_optics(const CameraFrame& frame, const Quad& corners,
   double pixel = 0;
   for (Side& side : sides_of(fit.ideal, fit.image)) {
     const double cell = cell_at(side, options);
-    if (!(cell >= least_cell * lay_in_picture(lens, side, pixel))) return fit;
+    if (!(cell >= smallest_cell * lay_in_picture(lens, side, pixel))) return fit;
   }
   fit.refusal = Refusal::none;
   return fit;

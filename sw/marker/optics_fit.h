@@ -17,8 +17,9 @@ enum class FirstReach : std::uint32_t {
 // As guess_quad(), find_quad() and refine_quad() of quad_fit.h, for frames with optics: through any
 // lens, and the last one in light.
 
+/// `smallest_cell`: px; with smaller ones the guess is refused (`shape`).
 QuadFit guess_through_optics(const CameraFrame& frame, const Quad& corners,
-                             const QuadFitOptions& options);
+                             const QuadFitOptions& options, double smallest_cell = least_cell);
 void find_through_optics(const CameraFrame& frame, const QuadFitOptions& options, FirstReach reach,
                          QuadFit& fit);
 

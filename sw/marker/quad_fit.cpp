@@ -123,6 +123,7 @@ QuadFit counted_from(const QuadFit& fit, unsigned first) {
     counted.image[i] = fit.image[(i + first) % 4];
   }
   for (unsigned i = 0; i < 8; ++i) {
+    counted.common[i] = fit.common[(i + 2 * first) % 8];
     for (unsigned j = 0; j < 8; ++j) {
       counted.covariance[i * 8 + j] = fit.covariance[(i + 2 * first) % 8 * 8 + (j + 2 * first) % 8];
     }

@@ -23,6 +23,9 @@ using Extremes = std::array<Pixel, 8>;
 /// rolled, and any other choice cuts area off. False if no four make a convex quadrilateral.
 bool largest_quad(const Extremes& extremes, Quad& quad);
 
+/// The edges of a marker with smaller cells cannot be measured, px.
+inline constexpr double least_cell = 1.5;
+
 struct QuadFitOptions {
   std::uint32_t cells = 6;          ///< of the marker's side; the outermost are black
   double minimum_contrast = 20;     ///< grey levels between the sides of an edge
@@ -74,6 +77,9 @@ struct QuadFit {
   Quad image;  ///< the same in the picture
   /// Covariance of `ideal`, px², row by row, in the order x0 y0 x1 … y3. Neighbours share a side.
   std::array<double, 64> covariance;
+  /// Of `covariance`, what all markers of the picture share: a deviation of all corners together,
+  /// px. All 0 where levels are light.
+  std::array<double, 8> common;
   double dark, bright;  ///< grey levels on both sides of the edges, mean of the four
   double raggedness;    ///< px: that of the worst side
   double reach;         ///< px: half the width of an edge

@@ -20,8 +20,6 @@ constexpr double first_reach = 3.2;
 constexpr double most_reach = 0.4;
 /// For what the place of the edge is off in the pass before, px.
 constexpr double slack = 0.05;
-/// A marker with smaller cells is too small, px.
-constexpr double least_cell = 1.5;
 /// So deep beyond the transition a grey level is read, px across the edge: as far as the border's
 /// cell goes, but not less than the first, which tells whether the code's cell is black, too.
 constexpr double least_depth = 2;

@@ -33,7 +33,7 @@ constexpr double vague_variance = 0.25 * 0.25, clear_logarithm = 0.3;
 constexpr double most_shift = 0.8;
 /// The scatter of single markers, in transitions: what is expected before it is seen (measured), as
 /// if so many had shown it, and over how many it is kept.
-constexpr double first_scatter = 0.015 * 0.015, first_scatter_markers = 4, remembered_markers = 60;
+constexpr double first_scatter = 0.006 * 0.006, first_scatter_markers = 4, remembered_markers = 60;
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace marker {
 
 /// What a table leaves of the common shift, deviations of an edge's transition (measured): where
 /// the curve is known, and where nothing is.
-inline constexpr double shift_left = 0.01, unknown_shift = 0.40;
+inline constexpr double shift_left = 0.004, unknown_shift = 0.40;
 
 /// Finds the exponent of a camera's response curve from the edges inside markers, over the frames
 /// of a run.

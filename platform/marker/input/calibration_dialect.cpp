@@ -124,6 +124,27 @@ bool is_camchain(const Words& words) {
   });
 }
 
+/// A camera whose entries begin with `prefix`.
+Entries from_kalibr(Words words, const std::string& prefix) {
+  const std::optional<CalibrationEntry> model = words.take(prefix + "cameramodel");
+  if (!model || plain_name(model->text) != "pinhole") {
+    words.refuse("says '" + prefix + "camera_model: " + (model ? vp::excerpt(model->text) : "") +
+                 "': a projection that is not supported; pinhole is");
+  }
+  const Numbers k = words.numbers(prefix + "intrinsics", 4, 4);
+  words.add(matrix_of(k[0], k[1], k[2], k[3]));
+  const std::optional<CalibrationEntry> lens = words.take(prefix + "distortionmodel");
+  if (!lens || lens->text.empty()) words.refuse("has no '" + prefix + "distortion_model'");
+  words.add(word_of("distortion_model", lens->text));
+  if (words.has(prefix + "distortioncoeffs"))
+    words.add(list_of("distortion_coefficients", words.numbers(prefix + "distortioncoeffs", 0, 8)));
+  if (words.has(prefix + "resolution"))
+    words.add(list_of("resolution", words.numbers(prefix + "resolution", 2, 2)));
+  for (const char* name : {"rostopic", "tcamimu", "tcncnm1", "camoverlaps", "timeshiftcamimu"})
+    words.take(prefix + name);
+  return words.rest();
+}
+
 Entries from_camchain(Words words) {
   std::string camera;
   for (const CalibrationEntry& entry : words.entries()) {
@@ -135,25 +156,17 @@ Entries from_camchain(Words words) {
     }
     camera = found;
   }
-  const auto of_camera = [&](const char* name) { return camera + "." + name; };
-  const std::optional<CalibrationEntry> model = words.take(of_camera("cameramodel"));
-  if (!model || plain_name(model->text) != "pinhole") {
-    words.refuse("says '" + camera + ".camera_model: " + (model ? vp::excerpt(model->text) : "") +
-                 "': a projection that is not supported; pinhole is");
-  }
-  const Numbers k = words.numbers(of_camera("intrinsics"), 4, 4);
-  words.add(matrix_of(k[0], k[1], k[2], k[3]));
-  const std::optional<CalibrationEntry> lens = words.take(of_camera("distortionmodel"));
-  if (!lens || lens->text.empty()) words.refuse("has no '" + camera + ".distortion_model'");
-  words.add(word_of("distortion_model", lens->text));
-  if (words.has(of_camera("distortioncoeffs")))
-    words.add(
-        list_of("distortion_coefficients", words.numbers(of_camera("distortioncoeffs"), 0, 8)));
-  if (words.has(of_camera("resolution")))
-    words.add(list_of("resolution", words.numbers(of_camera("resolution"), 2, 2)));
-  for (const char* name : {"rostopic", "tcamimu", "tcncnm1", "camoverlaps", "timeshiftcamimu"})
-    words.take(of_camera(name));
-  return words.rest();
+  return from_kalibr(std::move(words), camera + ".");
+}
+
+/// The sensor.yaml of a data set (EuRoC's form): a camera of Kalibr's at the top level.
+bool is_sensor_file(const Words& words) {
+  return words.has("intrinsics") && words.has("cameramodel") && words.has("distortionmodel");
+}
+
+Entries from_sensor_file(Words words) {
+  words.drop({"sensortype", "comment", "ratehz", "tbs", "tbs.rows", "tbs.cols", "tbs.data"});
+  return from_kalibr(std::move(words), "");
 }
 
 // ---- MATLAB's cameraParameters ----
@@ -215,7 +228,7 @@ Entries from_orb_slam(Words words) {
   }
   if (words.has("camera.width"))
     words.add(list_of("image_size", {words.number("camera.width"), words.number("camera.height")}));
-  words.drop({"camera.fps", "camera.rgb", "camera.bf"});
+  words.drop({"camera.fps", "camera.rgb", "camera.bf", "file.version"});
   return words.rest();
 }
 
@@ -336,6 +349,7 @@ bool assigns(const std::string& text, const std::string& variable) {
 
 Entries in_known_words(Entries entries, const std::string& what) {
   Words words(std::move(entries), what);
+  if (is_sensor_file(words)) return from_sensor_file(std::move(words));
   if (is_camchain(words)) return from_camchain(std::move(words));
   if (words.has("radialdistortion") && (words.has("intrinsicmatrix") || words.has("k")))
     return from_matlab(std::move(words));

@@ -12,6 +12,7 @@ namespace platform::input {
 /// program:
 ///
 ///   Kalibr      a camchain of one camera: `intrinsics` fu fv pu pv, `distortion_coeffs`
+///   EuRoC       the sensor.yaml of a data set: the same at the top level
 ///   MATLAB      cameraParameters, as text: a transposed `IntrinsicMatrix` or a `K`, radial and
 ///               tangential coefficients apart, the first pixel at (1, 1)
 ///   ORB-SLAM    `Camera.fx`, `Camera.k1` … of PinHole and KannalaBrandt8

@@ -75,6 +75,7 @@ constexpr Sign signs[] = {{"distortioncoeffs", "a camchain of Kalibr"},
                           {"projectionparameters", "a camera file of VINS (camodocal)"},
                           {"mirrorparameters", "a camera file of VINS (camodocal)"},
                           {"radialdistortion", "MATLAB's cameraParameters"},
+                          {"mappingcoefficients", "MATLAB's fisheyeIntrinsics"},
                           {"ppx", "intrinsics of librealsense"},
                           {"cameradata", "a calibration of DepthAI"},
                           {"mirroroffset", "a camera file of BoofCV"},
@@ -297,6 +298,7 @@ class Reader {
                "': a lens model that is not supported. plumb_bob (radtan, Brown-Conrady), "
                "rational_polynomial and equidistant (fisheye) are; calibrate for one of them");
       }
+      is_model_named_ = true;
       if (known->is_fisheye) result_.lens_model = marker::LensModel::equidistant;
       std::set<std::size_t> common;
       std::set_intersection(counts.begin(), counts.end(), known->coefficients.begin(),
@@ -331,8 +333,16 @@ class Reader {
     if (k.size() > known && !is_zero({k.begin() + static_cast<std::ptrdiff_t>(known), k.end()})) {
       refuse(
           "has lens distortion of a tilted sensor (tau_x, tau_y), which is not supported: "
-          "calibrate "
-          "without CALIB_TILTED_MODEL");
+          "calibrate without CALIB_TILTED_MODEL");
+    }
+    // Beyond what lenses that are not quite straight have.
+    constexpr double most_tangential = 0.02;
+    if (!is_model_named_ && k.size() == 4 &&
+        std::max(std::abs(k[2]), std::abs(k[3])) > most_tangential) {
+      refuse(
+          "has 4 coefficients of lens distortion without a lens model, and the last two are too "
+          "large for p1 and p2: those of a fisheye lens come with 'fisheye_model: 1', others with "
+          "'distortion_model: plumb_bob'");
     }
     constexpr std::size_t brown_conrady = 5;
     if (k.size() > brown_conrady && !is_zero({k.begin() + brown_conrady, k.end()}))
@@ -414,6 +424,7 @@ class Reader {
   std::string path_;
   std::vector<CalibrationEntry> entries_;
   std::vector<bool> used_;
+  bool is_model_named_ = false;
   CalibratedCamera result_;
 };
 
@@ -445,51 +456,6 @@ bool has_distortion(const CalibratedCamera& calibrated) {
   const std::vector<double>& all = calibrated.distortion;
   return calibrated.lens_model == marker::LensModel::equidistant ||
          std::any_of(all.begin(), all.end(), [](double value) { return value != 0; });
-}
-
-bool is_off_centre(const Camera& camera) {
-  constexpr double usual = 0.25;
-  return std::abs(camera.cx - camera.width / 2.0) > usual * camera.width ||
-         std::abs(camera.cy - camera.height / 2.0) > usual * camera.height;
-}
-
-namespace {
-
-/// How far from the axis, at focal length 1, the picture shows a ray: of a fisheye lens by its
-/// angle, else by its tangent. None beyond what the model has.
-std::optional<double> seen_radius(const Camera& camera, double ray) {
-  const std::array<double, 12>& k = camera.distortion;
-  const double r2 = ray * ray;
-  if (camera.lens_model == marker::LensModel::equidistant) {
-    if (ray > marker::widest_angle) return std::nullopt;
-    return ray * (1 + r2 * (k[0] + r2 * (k[1] + r2 * (k[2] + r2 * k[3]))));
-  }
-  const double below = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
-  if (!(below > 0)) return std::nullopt;
-  return ray * (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / below;
-}
-
-}  // namespace
-
-std::optional<double> lens_reach_px(const CalibratedCamera& calibrated, ImageSize usual) {
-  const Camera& known = calibrated.camera;
-  const Camera camera =
-      camera_for(calibrated, calibrated.has_size ? ImageSize{known.width, known.height} : usual);
-  double corner = 0;
-  for (const double x : {0, camera.width}) {
-    for (const double y : {0, camera.height}) {
-      corner =
-          std::max(corner, std::hypot((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy));
-    }
-  }
-  double seen = 0;
-  for (int step = 1; seen < corner; ++step) {
-    constexpr double step_size = 1e-3;
-    const std::optional<double> next = seen_radius(camera, step * step_size);
-    if (!next || !(*next > seen)) return seen * std::min(camera.fx, camera.fy);
-    seen = *next;
-  }
-  return std::nullopt;
 }
 
 }  // namespace platform::input

@@ -30,9 +30,9 @@ struct CalibratedCamera {
 /// `response` is what light the grey levels stand for: "linear", "srgb", "rec709", an exponent, or
 /// the light of 256 levels.
 /// Throws vp::InputError: missing, malformed, of another format; another lens model, coefficients
-/// that the model does not have, or distortion under an unknown name; a response that is not known
-/// or falls; no camera matrix, focal length not positive, skew; images that are binned, cut or
-/// turned; contradictions.
+/// that the model does not have or that may be another's, or distortion under an unknown name; a
+/// response that is not known or falls; no camera matrix, focal length not positive, skew; images
+/// that are binned, cut or turned; contradictions.
 CalibratedCamera read_camera_file(const std::string& path);
 
 /// The camera for images of `size`. Throws vp::InputError if the file is for another size.

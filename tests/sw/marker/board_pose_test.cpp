@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "fake_hal.h"
@@ -30,7 +31,7 @@ marker::CornerWeights weights_of(double sigma) {
 
 SeenMarker seen(const Places& places, const Eigen::Matrix3d& rotation,
                 const Eigen::Vector3d& translation, double sigma = 0.02) {
-  SeenMarker marker{places, {}, weights_of(sigma)};
+  SeenMarker marker{places, {}, weights_of(sigma), {}};
   for (unsigned i = 0; i < 4; ++i) {
     const Eigen::Vector3d p = rotation * Eigen::Vector3d(places[i].data()) + translation;
     marker.corners[i] = {camera.fx * p.x() / p.z() + camera.cx,
@@ -148,6 +149,74 @@ BOOST_AUTO_TEST_CASE(a_grid_board_as_a_whole) {
   // Six markers over three times the width: better than the square root of six.
   BOOST_TEST(all.best.covariance[0] * 6 < one.best.covariance[0]);
   BOOST_TEST(all.best.covariance[35] * 6 < one.best.covariance[35]);
+}
+
+/// Over many draws of corners, as they are known: the squared error of the pose in deviations of
+/// its covariance, and chi_squared, both means.
+struct Agreement {
+  double pose = 0, corners = 0;
+};
+
+/// `told`: the covariance knows that all corners may move outwards together.
+Agreement agreement(const std::vector<Places>& board, double common, bool told) {
+  constexpr int draws = 300;
+  constexpr double sigma = 0.02;
+  const Eigen::Matrix3d rotation = turn(-20, 35, 70);
+  const Eigen::Vector3d translation(0.05, -0.02, 0.6);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  Agreement sum;
+  for (int draw = 0; draw < draws; ++draw) {
+    const double shift = common * normal(random);
+    std::vector<SeenMarker> markers;
+    for (const Places& places : board) {
+      SeenMarker marker = seen(places, rotation, translation, sigma);
+      const marker::Quad corners = marker.corners;
+      const marker::Point middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+      for (unsigned i = 0; i < 4; ++i) {
+        const marker::Point out = corners[i] - middle;
+        const marker::Point way = 1 / std::sqrt(marker::dot(out, out)) * out;
+        marker.corners[i].x += shift * way.x + sigma * normal(random);
+        marker.corners[i].y += shift * way.y + sigma * normal(random);
+        if (told) {
+          marker.common[2 * i] = common * way.x;
+          marker.common[2 * i + 1] = common * way.y;
+        }
+      }
+      markers.push_back(marker);
+    }
+    const BoardPoses poses = marker::estimate_board_pose(
+        markers.data(), static_cast<std::uint32_t>(markers.size()), camera);
+    BOOST_REQUIRE(poses.valid);
+    const Eigen::AngleAxisd turned(rotation_of(poses.best) * rotation.transpose());
+    Eigen::Matrix<double, 6, 1> error;
+    error << turned.angle() * turned.axis(), views::translation_of(poses.best) - translation;
+    const Eigen::Map<const Eigen::Matrix<double, 6, 6>> covariance(poses.best.covariance.data());
+    sum.pose += error.dot(covariance.ldlt().solve(error)) / draws;
+    sum.corners += poses.best.chi_squared / draws;
+  }
+  return sum;
+}
+
+// A camera's curve shifts the edges of all markers alike: more of them do not average it away.
+BOOST_AUTO_TEST_CASE(what_all_markers_share_is_in_the_covariance) {
+  const GridBoard grid{3, 2, 0.06, 0.02, 0};
+  std::vector<Places> board(6);
+  for (std::uint32_t id = 0; id < 6; ++id) BOOST_REQUIRE(grid.find(id, board[id]));
+  const std::vector<Places> single = {marker::single_marker(0.06)};
+  for (const double common : {0.0, 0.02, 0.3}) {
+    BOOST_TEST_CONTEXT(common << " px") {
+      const Agreement of_one = agreement(single, common, true);
+      const Agreement of_all = agreement(board, common, true);
+      BOOST_TEST(of_one.pose == 6, boost::test_tools::tolerance(0.15));
+      BOOST_TEST(of_all.pose == 6, boost::test_tools::tolerance(0.15));
+      BOOST_TEST(of_one.corners == 8 - 6, boost::test_tools::tolerance(0.2));
+      BOOST_TEST(of_all.corners == 48 - 6, boost::test_tools::tolerance(0.05));
+    }
+  }
+  const Agreement untold = agreement(board, 0.3, false);
+  BOOST_TEST(untold.pose > 60);
+  BOOST_TEST(untold.corners > 420);
 }
 
 // OpenCV's layout of 7 × 5 squares with markers 0 to 16: three in the first row, four in the next.

@@ -46,10 +46,11 @@ struct Shown {
 
 /// What the detector finds if it tries again, or follows outlines, too.
 std::unique_ptr<marker::Detections> detect(const Shown& shown, bool tries_again,
-                                           bool reads_outlines) {
+                                           bool reads_outlines,
+                                           const char* dictionary = "4x4_250") {
   auto detector = std::make_unique<marker::MarkerDetector>();
   auto found = std::make_unique<marker::Detections>();
-  detector->open(*marker::find_dictionary("4x4_250"), {});
+  detector->open(*marker::find_dictionary(dictionary), {});
   marker::Optics optics{};
   optics.lens.camera = pictures::lens_of(shown.scene.camera).camera;
   optics.light = marker::linear_light();
@@ -57,7 +58,8 @@ std::unique_ptr<marker::Detections> detect(const Shown& shown, bool tries_again,
   optics.reads_outlines = reads_outlines;
   marker::CameraFrame frame{pictures::view(shown.image), {optics.lens.camera}};
   frame.optics = &optics;
-  const std::vector<std::uint32_t> words = pictures::words_of(pictures::find_blobs(frame.image));
+  const std::vector<std::uint32_t> words =
+      pictures::words_of(pictures::find_blobs(frame.image, 127, 9));
   detector->find_markers(frame, {words.data(), static_cast<std::uint32_t>(words.size() / 8)},
                          *found);
   return found;
@@ -155,6 +157,66 @@ BOOST_AUTO_TEST_CASE(neighbours_two_pixels_away_are_found_at_the_second_try) {
     BOOST_TEST(std::abs(m.fit.image[0].x - (100 + 62 * i)) < 0.1);
   }
   BOOST_TEST(detect(two_markers(0), true, false)->count == 0u, "one blob");
+}
+
+/// Marker 7 of a dictionary, 48 px wide and so many px high, leaning; `wrong`: cells of its code
+/// that are not as they should be.
+Shown narrow_marker(const char* name, double height, unsigned wrong = 0) {
+  Shown shown;
+  const marker::Dictionary& dictionary = *marker::find_dictionary(name);
+  std::uint64_t word = dictionary.words[7];
+  for (unsigned i = 0; i < wrong; ++i) word ^= std::uint64_t{1} << (5 * i);
+  const Point origin{200.3, 150.4}, right{48, 5}, down{-9, height};
+  const double area = right.x * down.y - right.y * down.x;
+  const auto side = static_cast<int>(dictionary.cells) + 2;
+  const auto is_black = [&](Point p) {
+    const Point off = p - origin;
+    const double u = (off.x * down.y - off.y * down.x) / area * side;
+    const double v = (right.x * off.y - right.y * off.x) / area * side;
+    if (u < 0 || v < 0 || u >= side || v >= side) return false;
+    const int column = static_cast<int>(u) - 1, row = static_cast<int>(v) - 1;
+    const int cells = side - 2;
+    if (row < 0 || column < 0 || row >= cells || column >= cells) return true;
+    return (word >> (cells * cells - 1 - row * cells - column) & 1) != 0;
+  };
+  constexpr int samples = 8;
+  for (int y = 0; y < shown.image.height; ++y) {
+    for (int x = 0; x < shown.image.width; ++x) {
+      int black = 0;
+      for (int i = 0; i < samples * samples; ++i) {
+        const Point p{x + (i % samples + 0.5) / samples, y + (i / samples + 0.5) / samples};
+        black += is_black(p) ? 1 : 0;
+      }
+      shown.image.pixels[static_cast<std::size_t>(y * shown.image.width + x)] =
+          static_cast<std::uint8_t>(220 - 190 * black / (samples * samples));
+    }
+  }
+  const std::array<Point, 4> corners = {origin, origin + right, origin + right + down,
+                                        origin + down};
+  for (unsigned i = 0; i < 4; ++i) shown.corners[i] = {corners[i].x, corners[i].y};
+  return shown;
+}
+
+// Of eight cells in 10 px of height none is high enough for its edges to be measured.
+BOOST_AUTO_TEST_CASE(a_marker_with_narrow_cells_is_found_by_its_outline) {
+  const Shown shown = narrow_marker("apriltag_36h11", 10);
+  BOOST_TEST(detect(shown, true, false, "apriltag_36h11")->count == 0u);
+  const auto found = detect(shown, true, true, "apriltag_36h11");
+  BOOST_TEST_REQUIRE(is_found(shown, *found, 0.7));
+  // They say how little is known of their corners.
+  const marker::QuadFit& fit = found->markers[0].marker.fit;
+  for (unsigned i = 0; i < 8; ++i) BOOST_TEST(std::sqrt(fit.covariance[9 * i]) == 0.3);
+  BOOST_TEST(detect(narrow_marker("apriltag_36h11", 4), true, true, "apriltag_36h11")->count == 0u,
+             "narrower than can be read");
+}
+
+BOOST_AUTO_TEST_CASE(narrow_cells_must_be_a_word_that_chance_hardly_makes) {
+  BOOST_TEST(
+      detect(narrow_marker("apriltag_36h11", 10, 1), true, true, "apriltag_36h11")->count == 0u,
+      "a wrong cell");
+  BOOST_TEST(detect(narrow_marker("4x4_250", 7.5), true, true, "4x4_250")->count == 0u, "16 cells");
+  BOOST_TEST(detect(narrow_marker("4x4_250", 20), true, true, "4x4_250")->count == 1u,
+             "the same with cells that can be measured");
 }
 
 BOOST_AUTO_TEST_CASE(a_square_is_in_its_own_outline) {

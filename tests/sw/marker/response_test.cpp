@@ -266,6 +266,15 @@ BOOST_AUTO_TEST_CASE(the_covariance_has_what_sides_share) {
   BOOST_TEST(variance(a) < shift * shift / 100);
   BOOST_TEST(variance(b) > 4 * shift * shift);
   BOOST_TEST(variance(b) < 16 * shift * shift);
+  // It stays apart, as all markers of the picture have it: without it both know the same.
+  for (unsigned i = 0; i < 8; ++i) {
+    BOOST_TEST(a.common[i] == 0);
+    for (unsigned k = 0; k < 8; ++k) {
+      const double own = b.covariance[8 * i + k] - b.common[i] * b.common[k];
+      BOOST_TEST(std::abs(own - a.covariance[8 * i + k]) < 1e-9);
+    }
+  }
+  BOOST_TEST(std::hypot(b.common[0], b.common[1]) > shift);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -65,6 +65,13 @@ const std::string orb_slam =
     "319.5\nCamera.cy: 239.5\nCamera.k1: 0.1\nCamera.k2: -0.2\nCamera.k3: 0.01\nCamera.k4: 0.02\n"
     "Camera.width: 640\nCamera.height: 480\nCamera.fps: 20\n";
 
+const std::string sensor =
+    "%YAML:1.0\n# General sensor definitions.\nsensor_type: camera\ncomment: cam0\nT_BS:\n  cols: "
+    "4\n  rows: 4\n  data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\nrate_hz: "
+    "20\nresolution: [640, 480]\ncamera_model: pinhole\nintrinsics: [600.5, 601.25, 319.5, 239.5] "
+    "#fu, fv, cu, cv\ndistortion_model: radial-tangential\ndistortion_coefficients: [0.1, -0.2, "
+    "0.01, 0.02]\n";
+
 /// A text with one part in place of another.
 std::string with(std::string text, const std::string& part, const std::string& other) {
   const std::size_t at = text.find(part);
@@ -97,14 +104,35 @@ BOOST_AUTO_TEST_CASE(lens_models_by_name) {
   BOOST_TEST((camera_for(bare, {640, 480}).lens_model == LensModel::equidistant));
 }
 
+// cv::fisheye's four coefficients look like Brown and Conrady's, but for their size.
+BOOST_AUTO_TEST_CASE(four_coefficients_that_may_be_those_of_a_fisheye_lens) {
+  const std::string fisheye = k + size + "D: [-0.045, 0.077, -0.248, 0.238]\n";
+  CHECK_REFUSED(read(fisheye), "too large for p1 and p2");
+  CHECK_REFUSED(read(k + size + "D: [-0.045, 0.077, 0.001, -0.03]\n"), "too large for p1 and p2");
+  check_camera(read("fisheye_model: 1\n" + fisheye), LensModel::equidistant,
+               {-0.045, 0.077, -0.248, 0.238});
+  check_camera(read("distortion_model: plumb_bob\n" + fisheye), LensModel::brown_conrady,
+               {-0.045, 0.077, -0.248, 0.238});
+  check_camera(read(k + size + "D: [-0.3, 0.1, 0.02, -0.02]\n"), LensModel::brown_conrady,
+               {-0.3, 0.1, 0.02, -0.02});
+  BOOST_TEST(read(k + size + "D: [-0.3, 0.1, 0.05, 0, 0]\n").distortion.size() == 5u);
+}
+
 BOOST_AUTO_TEST_CASE(files_of_other_programs) {
   const std::vector<double> four{0.1, -0.2, 0.01, 0.02}, five{0.1, -0.2, 0.01, 0.02, 0.3};
   check_camera(read(kalibr), LensModel::brown_conrady, four);
   check_camera(read(with(kalibr, "radtan", "equidistant")), LensModel::equidistant, four);
+  check_camera(read(sensor), LensModel::brown_conrady, four);
+  check_camera(read(with(sensor, "radial-tangential", "equidistant")), LensModel::equidistant,
+               four);
   check_camera(read(ost), LensModel::brown_conrady, five);
   check_camera(read(caltech), LensModel::brown_conrady, five);
   check_camera(read(matlab), LensModel::brown_conrady, {0.1, -0.2, 0.01, 0.02, 0});
   check_camera(read(orb_slam), LensModel::equidistant, four);
+  std::string newer = with(orb_slam, "---\n", "---\nFile.version: \"1.0\"\n");
+  for (const char* name : {"fx", "fy", "cx", "cy", "k1", "k2", "k3", "k4"})
+    newer = with(newer, std::string("Camera.") + name, std::string("Camera1.") + name);
+  check_camera(read(newer), LensModel::equidistant, four);
   const std::string pinhole =
       with(with(orb_slam, "KannalaBrandt8", "PinHole"), "Camera.k3: 0.01\nCamera.k4: 0.02\n",
            "Camera.p1: 0.01\nCamera.p2: 0.02\n");
@@ -121,6 +149,10 @@ BOOST_AUTO_TEST_CASE(what_they_say_that_is_not_supported) {
       {kalibr + with(kalibr, "cam0", "cam1"), "has several cameras ('cam0' and 'cam1')"},
       {with(kalibr, "[600.5, 601.25, 319.5, 239.5]", "[1.1, 600.5, 601.25, 319.5, 239.5]"),
        "that is not 4 numbers"},
+      {with(sensor, "pinhole", "omni"), "says 'camera_model: omni'"},
+      {with(sensor, "radial-tangential", "fov"), "'distortion_model: fov': a lens model that is"},
+      {"MappingCoefficients: [200, -0.001, 0, 0]\nImageSize: [480, 640]\n",
+       "looks like MATLAB's fisheyeIntrinsics"},
       {with(ost, "0.1 -0.2 0.01 0.02 0.3", "0.1 -0.2 0.01 0.02 0.3 1 1 1"), "has 8 coefficients"},
       {with(ost, "600.5 0.0 319.5", "600.5 0.0"), "'camera_matrix' that is not 9 numbers"},
       {ost + ost.substr(ost.find("[narrow")), "has several cameras"},
