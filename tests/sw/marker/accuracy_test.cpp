@@ -33,7 +33,7 @@ struct Fixture {
 
 marker::BoardPoses pose_of(const marker::QuadFit& fit, const marker::Camera& camera) {
   const marker::SeenMarker seen{marker::single_marker(platform::marker_side_m), fit.ideal,
-                                marker::weights_of(fit.covariance)};
+                                marker::weights_of(fit.covariance), fit.common};
   return marker::estimate_board_pose(&seen, 1, camera);
 }
 
