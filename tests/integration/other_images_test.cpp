@@ -112,7 +112,13 @@ BOOST_AUTO_TEST_CASE(formats_of_the_same_picture_have_the_same_result) {
     const Json frame = frames_of(place, {file})[0];
     BOOST_TEST(frame["input"] == file);
     BOOST_TEST(finds(frame) == finds(scene), file);
-    BOOST_TEST(frame["time_us"] == scene["time_us"], file);
+    // A still image is shown twice, so its upload begins at another phase of the 100 MHz clock.
+    Json times = frame["time_us"], others = scene["time_us"];
+    const double upload_us = times["upload"], other_us = others["upload"];
+    BOOST_TEST(std::abs(upload_us - other_us) <= 0.01, file);
+    times.erase("upload");
+    others.erase("upload");
+    BOOST_TEST(times == others, file);
   }
 }
 
