@@ -30,6 +30,7 @@ using proof::Verdict;
 proof::Pins pins_of(const std::vector<proof::Port>& ports, const std::string& top,
                     const std::vector<std::string>& interfaces) {
   std::vector<RtlPort> list;
+  list.reserve(ports.size());
   for (const proof::Port& port : ports)
     list.push_back({port.name.c_str(), port.bits, port.output ? 1 : 0, port.place.c_str()});
   std::vector<std::pair<std::string, std::string>> said;
@@ -40,6 +41,7 @@ proof::Pins pins_of(const std::vector<proof::Port>& ports, const std::string& to
     said.emplace_back(entry.substr(0, colon), vp::trim(entry.substr(colon + 1)));
   }
   std::vector<RtlNote> notes;
+  notes.reserve(said.size());
   for (const auto& [port, text] : said) notes.push_back({"interface", port.c_str(), text.c_str()});
   RtlDescriptor module{};
   module.ip = "";

@@ -251,7 +251,7 @@ void RtlFinder::add_primitives(RtlSources& sources) const {
 
 /// The file that one includes by this name: beside it, else in any folder. Empty: it is missing.
 std::string RtlFinder::included(const std::string& name, const std::string& by) const {
-  const std::string beside = (fs::path(by).parent_path() / name).lexically_normal().string();
+  std::string beside = (fs::path(by).parent_path() / name).lexically_normal().string();
   std::error_code ignored;
   if (fs::is_regular_file(beside, ignored)) return beside;
   const auto known = by_filename_.find(fs::path(name).filename().string());
