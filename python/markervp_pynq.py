@@ -16,7 +16,7 @@ class GPIO:
         if direction not in ("in", "out"):
             raise ValueError("Direction should be 'in' or 'out'.")
         if not self._mio_pins <= gpio_index < self._mio_pins + 64:
-            raise ValueError(f"pin {gpio_index} is none of the 64 that lead to the logic: GPIO.get_gpio_pin(0) is the first")
+            raise ValueError(f"pin {gpio_index} does not lead to the logic, as 54 to 117 do: GPIO.get_gpio_pin(0) is the first")
         self.index, self.direction = gpio_index, direction
         bank, self._bit = divmod(gpio_index - self._mio_pins, 32)
         self._bank = 2 + bank

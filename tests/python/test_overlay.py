@@ -68,7 +68,7 @@ def test_pins_between_ps_and_logic(overlay):
     assert markervp_pynq.GPIO(markervp_pynq.GPIO.get_gpio_pin(2), "in").read() == 0
     with pytest.raises(AttributeError):
         pin.read()
-    with pytest.raises(ValueError, match="pin 7 is none of the 64"):
+    with pytest.raises(ValueError, match="pin 7 does not lead to the logic"):
         markervp_pynq.GPIO(7, "in")
 
 

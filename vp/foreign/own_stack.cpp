@@ -6,7 +6,7 @@
 #include <exception>
 #include <stdexcept>
 
-/// Of a build with the address sanitizer (vp/report/address_sanitizer.cpp); else there is none.
+/// Of a build with the address sanitizer (vp/report/address_sanitizer.cpp), and of no other.
 extern "C" void markervp_note_stack(void* first, std::size_t size) __attribute__((weak));
 
 namespace vp {

@@ -1,6 +1,7 @@
 #include <xilinx/axi_dma/descriptor_ring.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace xilinx {
 
@@ -90,10 +91,10 @@ void DescriptorRing::go_on(std::uint64_t cycle) {
   fetch_from_ = cycle + engine.tail_latency;
 }
 
-// They are read later, and what is wrong in them found then.
+// They are read later, and what is wrong in them found then: a chain may loop before its tail.
 void DescriptorRing::order_to_tail(WriteOrders& orders) {
-  const std::uint32_t first = ordered_to_;
-  do {
+  std::unordered_set<std::uint32_t> seen;
+  while (seen.insert(ordered_to_).second) {
     const std::uint32_t at = ordered_to_;
     std::uint32_t words[descriptor::bytes / word_bytes];
     if (!engine.m_axi.peek(at, words, sizeof words)) return;
@@ -102,7 +103,7 @@ void DescriptorRing::order_to_tail(WriteOrders& orders) {
                words[descriptor::CONTROL / word_bytes] & length_mask);
     ordered_to_ = pointer(words[descriptor::NXTDESC / word_bytes]);
     if (at == taildesc_) return;
-  } while (ordered_to_ != first);
+  }
 }
 
 bool DescriptorRing::wants_descriptor() const {

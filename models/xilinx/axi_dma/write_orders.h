@@ -9,8 +9,8 @@
 
 namespace xilinx {
 
-/// Memory that software ordered a core to write and that is not complete, the oldest order first:
-/// for whoever watches what the program makes of it meanwhile.
+/// Memory that software ordered a core to write and that is not complete, the oldest order first.
+/// It lets a watch see whether the program reads it meanwhile.
 class WriteOrders {
  public:
   struct Order {

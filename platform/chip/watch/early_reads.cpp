@@ -54,10 +54,13 @@ void EarlyReads::change(const xilinx::WriteOrders& orders, const xilinx::WriteOr
   const std::uint64_t from = (order.address - first_ + line_bytes - 1) / line_bytes;
   const std::uint64_t to = (std::min(order.address + order.bytes, end_) - first_) / line_bytes;
   if (!begins) return forget(from, to);
+  const auto has_new_data = [&](std::uint64_t at) {
+    return at < to && !(orders.is_cyclic && (lines_[at] & has_data) != 0);
+  };
   for (std::uint64_t at = from; at < to; ++at) {
-    if (orders.is_cyclic && (lines_[at] & has_data) != 0) continue;
-    lines_[at] |= ordered;
-    guard_.watch(first_ + at * line_bytes, line_bytes);
+    const std::uint64_t begin = at;
+    for (; has_new_data(at); ++at) lines_[at] |= ordered;
+    if (at != begin) guard_.watch(first_ + begin * line_bytes, (at - begin) * line_bytes);
   }
 }
 
@@ -71,10 +74,14 @@ void EarlyReads::written(std::uint64_t address, std::uint64_t bytes) {
 
 // Lines that were read too early stay watched: are they read again?
 void EarlyReads::forget(std::uint64_t first_line, std::uint64_t end_line) {
+  const auto drops = [&](std::uint64_t at) {
+    return at < end_line && (lines_[at] & ordered) != 0 && !is_candidate(at);
+  };
   for (std::uint64_t at = first_line; at < end_line; ++at) {
-    if ((lines_[at] & ordered) == 0) continue;
-    lines_[at] &= static_cast<unsigned char>(~ordered);
-    if (!is_candidate(at)) guard_.forget(first_ + at * line_bytes, line_bytes);
+    const std::uint64_t begin = at;
+    for (; drops(at); ++at) lines_[at] &= static_cast<unsigned char>(~ordered);
+    if (at != begin) guard_.forget(first_ + begin * line_bytes, (at - begin) * line_bytes);
+    if (at < end_line) lines_[at] &= static_cast<unsigned char>(~ordered);
   }
 }
 
@@ -101,6 +108,7 @@ bool EarlyReads::program_reads(std::uint64_t address, std::uintptr_t instruction
     read.polls = true;
     return is_candidate(number);
   }
+  if (!too_early) return is_candidate(number);
   warn(read, false);
   return false;
 }

@@ -8,6 +8,7 @@
 
 #include <vp/configuration.h>
 #include <vp/error.h>
+#include <vp/ip.h>
 
 using namespace axi_dma;
 using kit::DmaBench;
@@ -398,6 +399,21 @@ BOOST_FIXTURE_TEST_CASE(a_ring_that_loops_before_its_tail_ends_with_an_error, Sg
     }
   });
   BOOST_TEST(warnings("descriptor_error") == 3u);
+}
+
+// Software's order to write is followed to the tail at once: from the third on it goes round.
+BOOST_FIXTURE_TEST_CASE(a_chain_that_ends_in_a_loop_orders_each_buffer_once, SgBench) {
+  software.simulate([&] {
+    describe_ring(ring, 4, memory_base, 64, 0);
+    put(nth(ring, 3) + descriptor::NXTDESC, nth(ring, 2));
+    run(s2mm_registers, ring);
+    write(S2MM_TAILDESC, nth(ring, 20));
+    BOOST_TEST(vp::all_below<xilinx::MemoryPort>(dma).size() == 3u);
+    std::size_t open = 0;
+    for (const auto* port : vp::all_below<xilinx::MemoryPort>(dma))
+      open += port->orders.open().size();
+    BOOST_TEST(open == 4u);
+  });
 }
 
 BOOST_FIXTURE_TEST_CASE(a_misaligned_descriptor_is_told_of, SgBench) {
