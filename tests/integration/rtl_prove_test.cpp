@@ -68,6 +68,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_proved_is_refused) {
   check_refused({"frame_status", "--top", "own"}, "--top is a module of --rtl");
   check_refused({"frame_status"}, "no stream whose rules");
   check_refused({"frame_status", "--rtl", ".", "--parameter", "WIDTH"}, "give NAME=NUMBER");
+  check_refused({"frame_status", "--rtl", ".", "--parameter", "N(=3"}, "give NAME=NUMBER");
   check_refused({"frame_status", "--rtl", ".", "--depth", "0"}, "--depth");
   check_refused({}, "name an IP; or give --rtl and --top");
   check_refused({"--rtl", "own.v"}, "name an IP; or give --rtl and --top");

@@ -24,6 +24,7 @@ std::vector<std::string> declared_in(const std::string& text, const char* what) 
 }
 
 Parameters parse_parameters(const std::vector<std::string>& given) {
+  static const std::regex identifier("[A-Za-z_][A-Za-z0-9_]*");
   Parameters parameters;
   for (const std::string& text : given) {
     const std::size_t equals = text.find('=');
@@ -35,11 +36,12 @@ Parameters parse_parameters(const std::vector<std::string>& given) {
     const std::string_view word(begin, static_cast<std::size_t>(end - begin));
     if (word == "true") value = 1;
     const bool read = word == "true" || word == "false" || (error == std::errc{} && stop == end);
-    if (equals == 0 || !read) {
+    const std::string name = text.substr(0, equals);
+    if (!read || !std::regex_match(name, identifier)) {
       throw vp::InputError("--parameter '" + text +
                            "': give NAME=NUMBER, as LABELS=64, or true or false");
     }
-    parameters[text.substr(0, equals)] = value;
+    parameters[name] = value;
   }
   return parameters;
 }
