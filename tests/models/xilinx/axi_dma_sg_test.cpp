@@ -1,18 +1,11 @@
 // The DMA with scatter-gather: descriptors in memory, read ahead up to the tail, their statuses
 // written back.
 #include <boost/test/unit_test.hpp>
-#include <cstring>
 #include <random>
 
-#include "dma_bench.h"
+#include "sg_bench.h"
 
-#include <vp/configuration.h>
-#include <vp/error.h>
-#include <vp/ip.h>
-
-using namespace axi_dma;
-using kit::DmaBench;
-using xilinx::AxiDmaBuild;
+using namespace kit;
 
 namespace {
 
@@ -23,64 +16,6 @@ constexpr std::uint64_t begins = first_word + 28;
 constexpr std::uint64_t read_data = 6 + 20;
 constexpr std::uint64_t completion = 5;
 constexpr std::uint64_t update = 1 + 20;  // the status on the bus, and the response
-constexpr std::uint32_t ring = DmaBench::memory_base + 0x1000;
-constexpr std::uint32_t other_ring = DmaBench::memory_base + 0x2000;
-constexpr std::uint32_t eof = descriptor::EndOfFrame, sof = descriptor::StartOfFrame;
-
-AxiDmaBuild with_sg() {
-  AxiDmaBuild build;
-  build.include_sg = true;
-  return build;
-}
-
-struct Pointers {
-  std::uint32_t control, status, current, tail;
-};
-constexpr Pointers mm2s_registers{MM2S_DMACR, MM2S_DMASR, MM2S_CURDESC, MM2S_TAILDESC};
-constexpr Pointers s2mm_registers{S2MM_DMACR, S2MM_DMASR, S2MM_CURDESC, S2MM_TAILDESC};
-
-struct SgBench : DmaBench {
-  explicit SgBench(const AxiDmaBuild& build = with_sg()) : DmaBench(build) {
-    std::memset(memory.data() + 0x1000, 0, 0x2000);
-  }
-
-  /// The `index`th descriptor of the ring at `base`, linked to the next one.
-  static std::uint32_t nth(std::uint32_t base, unsigned index) { return base + 0x40 * index; }
-  void put(std::uint32_t address, std::uint32_t word) {
-    std::memcpy(memory.data() + (address - memory_base), &word, sizeof word);
-  }
-  std::uint32_t get(std::uint32_t address) const { return memory.word(address - memory_base); }
-  void describe(std::uint32_t at, std::uint32_t next, std::uint32_t buffer, std::uint32_t control) {
-    put(at + descriptor::NXTDESC, next);
-    put(at + descriptor::BUFFER_ADDRESS, buffer);
-    put(at + descriptor::CONTROL, control);
-    put(at + descriptor::STATUS, 0);
-  }
-  /// A ring of `count` descriptors whose buffers of `bytes` lie one behind the other.
-  void describe_ring(std::uint32_t base, unsigned count, std::uint32_t buffers, std::uint32_t bytes,
-                     std::uint32_t flags) {
-    for (unsigned i = 0; i < count; ++i) {
-      describe(nth(base, i), nth(base, (i + 1) % count), buffers + i * bytes, bytes | flags);
-    }
-  }
-  std::uint32_t status_of(std::uint32_t at) const { return get(at + descriptor::STATUS); }
-  void run(const Pointers& channel, std::uint32_t first, std::uint32_t control = dmacr::IOC_IrqEn) {
-    write(channel.current, first);
-    write(channel.control, control | dmacr::RS | 1u << dmacr::IRQThreshold_shift);
-    at(clock.cycle() + 5);
-  }
-  /// Just after edge `cycle`, with all that ran on it.
-  void settle_at(std::uint64_t cycle) {
-    at(cycle);
-    scheduler.synchronise();
-  }
-  std::uint32_t bits(std::uint32_t offset, std::uint32_t mask) { return read(offset) & mask; }
-  std::uint64_t wait_for(const Pointers& channel, std::uint32_t mask) {
-    return first_edge([&] { return status(channel.status, mask); });
-  }
-};
-
-constexpr std::uint32_t not_counts = ~(dmasr::IRQThresholdSts | dmasr::IRQDelaySts);
 
 }  // namespace
 
@@ -359,184 +294,6 @@ BOOST_FIXTURE_TEST_CASE(a_stopped_channel_starts_again_at_curdesc, SgBench) {
   BOOST_TEST(status_of(nth(ring, 1)) == (descriptor::Cmplt | sof | eof | 16u));
 }
 
-// ---- what goes wrong
-
-BOOST_FIXTURE_TEST_CASE(a_complete_descriptor_stops_both_channels, SgBench) {
-  describe_ring(ring, 4, memory_base, 64, sof | eof);
-  put(nth(ring, 1) + descriptor::STATUS, descriptor::Cmplt);
-  software.simulate([&] {
-    write(S2MM_DMACR, dmacr::RS);
-    run(mm2s_registers, ring, dmacr::Err_IrqEn);
-    write(MM2S_TAILDESC, nth(ring, 3));
-    BOOST_TEST(wait_for(mm2s_registers, dmasr::Err_Irq) > 0u);
-    at(clock.cycle() + 50);
-    BOOST_TEST(bits(MM2S_DMASR, not_counts) == (dmasr::Halted | dmasr::SGIncld | dmasr::SGIntErr |
-                                                dmasr::Err_Irq | dmasr::IOC_Irq));
-    BOOST_TEST(bits(S2MM_DMASR, dmasr::Halted) == dmasr::Halted);
-    BOOST_TEST(read(MM2S_CURDESC) == nth(ring, 1), "the one at fault");
-    BOOST_TEST(dma.mm2s_introut.get());
-    BOOST_TEST(sink.beats.size() == 16u, "those before it are done");
-    BOOST_TEST(warnings("descriptor_error") == 1u);
-    write(MM2S_DMACR, dmacr::Reset);
-    at(clock.cycle() + 30);
-    describe_ring(ring, 4, memory_base, 64, sof | eof);
-    run(mm2s_registers, ring);
-    write(MM2S_TAILDESC, nth(ring, 3));
-    BOOST_TEST(wait_for(mm2s_registers, dmasr::Idle) > 0u, "recovered");
-  });
-  BOOST_TEST(sink.beats.size() == 16u + 64u);
-}
-
-BOOST_FIXTURE_TEST_CASE(a_ring_that_loops_before_its_tail_ends_with_an_error, SgBench) {
-  software.simulate([&] {
-    for (const unsigned count : {1u, 2u, 7u}) {
-      describe_ring(ring, count, memory_base, 64, sof | eof);
-      write(MM2S_DMACR, dmacr::Reset);
-      at(clock.cycle() + 50);
-      run(mm2s_registers, ring);
-      write(MM2S_TAILDESC, nth(ring, 20));
-      BOOST_TEST(wait_for(mm2s_registers, dmasr::SGIntErr) > 0u);
-    }
-  });
-  BOOST_TEST(warnings("descriptor_error") == 3u);
-}
-
-// Software's order to write is followed to the tail at once: from the third on it goes round.
-BOOST_FIXTURE_TEST_CASE(a_chain_that_ends_in_a_loop_orders_each_buffer_once, SgBench) {
-  software.simulate([&] {
-    describe_ring(ring, 4, memory_base, 64, 0);
-    put(nth(ring, 3) + descriptor::NXTDESC, nth(ring, 2));
-    run(s2mm_registers, ring);
-    write(S2MM_TAILDESC, nth(ring, 20));
-    BOOST_TEST(vp::all_below<xilinx::MemoryPort>(dma).size() == 3u);
-    std::size_t open = 0;
-    for (const auto* port : vp::all_below<xilinx::MemoryPort>(dma))
-      open += port->orders.open().size();
-    BOOST_TEST(open == 4u);
-  });
-}
-
-BOOST_FIXTURE_TEST_CASE(a_misaligned_descriptor_is_told_of, SgBench) {
-  describe_ring(ring, 2, memory_base, 64, sof | eof);
-  put(ring + descriptor::NXTDESC, nth(ring, 1) + 0x20);
-  software.simulate([&] {
-    run(mm2s_registers, ring + 4);
-    BOOST_TEST(warnings("descriptor_unaligned") == 1u);
-    BOOST_TEST(read(MM2S_CURDESC) == ring);
-    write(MM2S_TAILDESC, nth(ring, 1) + 8);
-    BOOST_TEST(warnings("descriptor_unaligned") == 2u);
-    BOOST_TEST(wait_for(mm2s_registers, dmasr::Idle) > 0u, "the low bits are dropped");
-    BOOST_TEST(warnings("descriptor_unaligned") == 3u);
-  });
-  BOOST_TEST(sink.beats.size() == 32u);
-}
-
-BOOST_FIXTURE_TEST_CASE(pointers_written_at_the_wrong_time, SgBench) {
-  describe_ring(ring, 2, memory_base, 64, sof | eof);
-  software.simulate([&] {
-    write(MM2S_CURDESC, ring);
-    write(MM2S_TAILDESC, nth(ring, 1));
-    at(clock.cycle() + 500);
-    BOOST_TEST(warnings("taildesc_while_halted") == 1u);
-    run(mm2s_registers, ring);
-    at(clock.cycle() + 500);
-    BOOST_TEST(sink.beats.empty(), "RS alone starts nothing");
-    write(MM2S_CURDESC, nth(ring, 1));
-    BOOST_TEST(warnings("curdesc_while_running") == 1u);
-    BOOST_TEST(read(MM2S_CURDESC) == ring);
-  });
-}
-
-BOOST_AUTO_TEST_CASE(descriptors_where_no_memory_is) {
-  struct Case {
-    std::uint32_t at, error;
-  };
-  for (const Case& c : {Case{DmaBench::broken_base, dmasr::SGSlvErr},
-                        Case{DmaBench::nothing_base, dmasr::SGDecErr}}) {
-    SgBench bench;
-    bench.software.simulate([&] {
-      bench.run(s2mm_registers, c.at);
-      bench.write(S2MM_TAILDESC, c.at);
-      BOOST_TEST(bench.wait_for(s2mm_registers, c.error) > 0u);
-      bench.at(bench.clock.cycle() + 50);
-      BOOST_TEST(bench.bits(S2MM_DMASR, dmasr::Halted | dmasr::errors) ==
-                 (dmasr::Halted | c.error));
-      BOOST_TEST(bench.read(S2MM_CURDESC) == c.at);
-    });
-    BOOST_TEST(bench.warnings("descriptor_error") == 1u);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(buffers_that_cannot_be_moved) {
-  struct Case {
-    std::uint32_t buffer, control, error, in_descriptor;
-    const char* warning;
-  };
-  const Case cases[] = {
-      {DmaBench::broken_base, 64 | eof, dmasr::DMASlvErr, descriptor::DMASlvErr, "bus_error"},
-      {DmaBench::nothing_base, 64 | eof, dmasr::DMADecErr, descriptor::DMADecErr, "bus_error"},
-      {DmaBench::memory_base, 0 | eof, dmasr::DMAIntErr, descriptor::DMAIntErr, "length_zero"},
-  };
-  for (const Case& c : cases) {
-    for (const Pointers& channel : {mm2s_registers, s2mm_registers}) {
-      SgBench bench;
-      bench.describe(ring, SgBench::nth(ring, 1), DmaBench::memory_base + 0x8000, 64 | sof | eof);
-      bench.describe(SgBench::nth(ring, 1), ring, c.buffer, c.control);
-      bench.software.simulate([&] {
-        bench.run(channel, ring);
-        bench.write(channel.tail, SgBench::nth(ring, 1));
-        bench.send_packet(16);
-        bench.send_packet(16);
-        BOOST_TEST(bench.wait_for(channel, c.error) > 0u);
-        bench.at(bench.clock.cycle() + 100);
-        BOOST_TEST(bench.status(channel.status, dmasr::Halted));
-      });
-      BOOST_TEST((bench.status_of(ring) & 0xF0000000u) == descriptor::Cmplt);
-      BOOST_TEST(bench.status_of(SgBench::nth(ring, 1)) == (descriptor::Cmplt | c.in_descriptor));
-      BOOST_TEST(bench.warnings(c.warning) == 1u);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(lengths_that_do_not_fit_the_build) {
-  AxiDmaBuild build = with_sg();
-  build.length_width = 8;
-  SgBench bench(build);
-  bench.describe(ring, ring, DmaBench::memory_base, 0x140 | sof | eof);
-  bench.software.simulate([&] {
-    bench.run(mm2s_registers, ring);
-    bench.write(MM2S_TAILDESC, ring);
-    bench.wait_for(mm2s_registers, dmasr::Idle);
-  });
-  BOOST_TEST(bench.warnings("length_too_wide") == 1u);
-  BOOST_TEST(bench.sink.beats.size() == 16u);
-}
-
-BOOST_FIXTURE_TEST_CASE(a_reset_in_the_middle_leaves_nothing_behind, SgBench) {
-  software.simulate([&] {
-    for (const std::uint64_t after : {5u, 25u, 45u, 80u, 130u, 400u, 700u}) {
-      describe_ring(ring, 16, memory_base, 1024, sof | eof);
-      run(mm2s_registers, ring);
-      write(MM2S_TAILDESC, nth(ring, 15));
-      at(clock.cycle() + after);
-      write(S2MM_DMACR, dmacr::Reset);
-      at(clock.cycle() + 200);
-      BOOST_TEST(read(MM2S_DMASR) == 0x00010009u);
-      BOOST_TEST(!mm2s_link.tvalid.get());
-      scheduler.synchronise();
-      sink.beats.clear();
-      describe_ring(ring, 16, memory_base, 1024, sof | eof);
-      run(mm2s_registers, nth(ring, 3));
-      write(MM2S_TAILDESC, nth(ring, 3));
-      BOOST_TEST(wait_for(mm2s_registers, dmasr::Idle) > 0u);
-      BOOST_TEST(sink.beats.size() == 256u);
-      BOOST_TEST(sink.beats.front().data == memory.word(3 * 1024));
-      write(MM2S_DMACR, dmacr::Reset);
-      at(clock.cycle() + 50);
-    }
-  });
-}
-
 // ---- many packets
 
 namespace {
@@ -605,11 +362,6 @@ BOOST_AUTO_TEST_CASE(random_packets_arrive_whole) {
     random_packets(direct, true, batch);
     BOOST_TEST((single == batch), "the scheduler's batches change no time");
   }
-}
-
-BOOST_AUTO_TEST_CASE(the_engine_is_there_only_if_it_was_built) {
-  DmaBench bench;
-  BOOST_CHECK_THROW(bench.dma.scatter_gather(), std::logic_error);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
