@@ -124,6 +124,7 @@ void measure_features(Random& random, std::uint32_t width, std::uint32_t height)
 
 /// Measures what follows, on random features, candidates and poses.
 void measure_decode(Random& random);
+void measure_packet_sum(Random& random);
 void measure_evaluation(Random& random);
 /// `cold`: the binary image is in no cache, as after a DMA engine wrote it.
 void measure_identification(Random& random, std::uint32_t width, std::uint32_t height, bool cold);

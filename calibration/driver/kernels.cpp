@@ -2,6 +2,7 @@
 
 #include <apps/hybrid/pl_link.h>
 #include <marker/blob_grouping.h>
+#include <marker/blob_packet.h>
 #include <marker/fast.h>
 #include <marker/marker_search.h>
 #include <marker/posit.h>
@@ -117,6 +118,21 @@ void measure_decode(Random& random) {
   measure(
       "decode", [&] { marker::decode(list.data(), count, marker::packet::usual_format, features); },
       of_features);
+}
+
+void measure_packet_sum(Random& random) {
+  std::vector<std::uint32_t> packet(3 + 8 * random.below(60));
+  for (std::uint32_t& word : packet) word = random.below(1u << 31);
+  flush_caches();  // the logic wrote it behind their back
+  std::uint32_t value = 0;
+  measure(
+      "packet_sum",
+      [&] { value = marker::packet_sum(packet.data(), static_cast<std::uint32_t>(packet.size())); },
+      [&] {
+        Checksum sum;
+        sum.add(value);
+        return sum;
+      });
 }
 
 void measure_evaluation(Random& random) {

@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
   const std::uint32_t width = argc > 3 ? static_cast<std::uint32_t>(std::atoi(argv[2])) : 0;
   const std::uint32_t height = argc > 3 ? static_cast<std::uint32_t>(std::atoi(argv[3])) : 0;
   if (argc > 4) only_kernel = argv[4];
-  Random random(2026), detector_random(2027), filter_random(2028), optics_random(2029);
+  Random random(2026), detector_random(2027), filter_random(2028), optics_random(2029),
+      packet_random(2030);
   // Small: counts per unit do not depend on the size, but rows and pixels must be told apart.
   constexpr std::uint32_t sizes[][2] = {{160, 120}, {224, 128}, {192, 160}, {128, 112}, {256, 144}};
   for (int scene = 0; scene < scenes; ++scene) {
@@ -67,6 +68,7 @@ int main(int argc, char** argv) {
       measure_optics(optics_random, w, h);
     }
     measure_hardware(random);
+    measure_packet_sum(packet_random);
   }
   return 0;
 }

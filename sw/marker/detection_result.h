@@ -21,6 +21,7 @@ enum class DetectionStatus : std::uint32_t {
   picture_cut,       ///< the picture has not the bytes that it should have
   malformed_packet,  ///< a length that no packet has, or another number of blobs than it says
   wrong_frame,       ///< of another trigger than the last one
+  wrong_checksum,    ///< the packet's words are not those that the logic sent
 };
 
 constexpr const char* status_name(DetectionStatus status) {
@@ -43,6 +44,8 @@ constexpr const char* status_name(DetectionStatus status) {
       return "malformed packet of blobs";
     case DetectionStatus::wrong_frame:
       return "frame of another trigger";
+    case DetectionStatus::wrong_checksum:
+      return "packet of blobs with a wrong checksum";
   }
   return "unknown";
 }

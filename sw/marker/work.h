@@ -101,7 +101,9 @@
   X(outline_distances, "one held against a chord")                                            \
   X(outline_fitted, "one taken into a line")                                                  \
   X(outline_meets, "two lines: do they meet?")                                                \
-  X(outline_covers, "four pieces that meet: do they cover their sides?")
+  X(outline_covers, "four pieces that meet: do they cover their sides?")                      \
+  X(packets_summed, "a packet whose checksum is looked at, of any length")                    \
+  X(words_summed, "a word of it")
 
 /// The functions that PS programs annotate, as in traces and reports. The order is that of
 /// hal_program.functions.

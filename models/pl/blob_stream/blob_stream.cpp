@@ -48,6 +48,7 @@ void BlobStream::connect(IpPorts& ports) {
   ports.report(dropped_frames);
   ports.report(dropped_blobs);
   ports.parameter("FIFO_DEPTH", fifo_depth.name(), fifo_depth);
+  ports.parameter("CHECKSUM", checksum.name(), checksum);
 }
 
 void BlobStreamClocked::edge() {
@@ -79,7 +80,10 @@ void BlobStreamClocked::fill_fifo(bool room) {
   // Blobs that are lost until its word leaves count.
   const bool is_lost_word = sender_.back().last && sender_.size() == 2;
   if (is_lost_word) sender_.front().data = lost_;
-  fifo_.push_back(sender_.front());
+  Word& word = sender_.front();
+  if (word.last && checksum) word.data = packet::checked_word(sum_, word.data);
+  sum_ = packet::add_to_sum(sum_, word.data);
+  fifo_.push_back(word);
   sender_.pop_front();
   if (fifo_.back().last) busy = false;
 }
@@ -96,7 +100,7 @@ void BlobStreamClocked::begin_frame(bool free) {
   number_ = frame_number;
   threshold_ = threshold;
   overflow_before_ = label_overflow;
-  sent_ = lost_ = 0;
+  sent_ = lost_ = sum_ = 0;
 }
 
 // The words follow each other into the FIFO without a gap: it has room for all of them, or for
@@ -139,7 +143,8 @@ void BlobStreamClocked::reset() {
 }
 
 vp::IpEstimate BlobStream::own_estimate() const {
-  vp::IpEstimate e = synthesised_ip("blob_stream", {{"FIFO_DEPTH", fifo_depth}});
+  vp::IpEstimate e =
+      synthesised_ip("blob_stream", {{"CHECKSUM", checksum}, {"FIFO_DEPTH", fifo_depth}});
   e.bram36 = fifo_memory(fifo_depth, 33);
   return e;
 }

@@ -48,6 +48,9 @@ class BlobStream : public vp::Clocked, public vp::Ip {
       "fifo_depth",         512,
       vp::Unit::none,       {::blob_stream::words_per_blob, 65535},
       vp::Source::decision, "words that wait for the DMA, besides the output register"};
+  vp::Parameter<bool> checksum{
+      "checksum", false, vp::Source::decision,
+      "the packet ends with a sum of its words, with which the software finds wrong ones"};
   vp::Signal<std::uint32_t> depth{"depth", 17, fifo_depth};  ///< for traces: what is full
 
  protected:
@@ -86,6 +89,7 @@ class BlobStreamClocked : public BlobStream {
   bool dropping_ = false;  ///< the frame under way gets no packet
   bool mixed_ = false;     ///< another one began in it: its blobs are not the packet's
   std::uint32_t number_ = 0, threshold_ = 0, sent_ = 0, lost_ = 0, overflow_before_ = 0;
+  std::uint32_t sum_ = 0;  ///< of the packet's words in or behind the FIFO
   vp::Probe<std::uint32_t> sent_probe_{"sent", sent_, 13};
 };
 

@@ -39,9 +39,27 @@ enum Trailer : std::uint32_t {
   /// Blobs that were dropped (FIFO full, more than max_blobs), and dark pixels without a label. Not
   /// 0: markers may be missing.
   lost,
-  threshold,  ///< with which the frame was made binary, 0 to 255
+  /// Bits 7 to 0: the threshold with which the frame was made binary. With a checksum also Checked
+  /// and, in bits 31 to 16, the checksum; 0 otherwise.
+  threshold,
 };
 inline constexpr std::uint32_t trailer_words = 4;
+
+/// The bits of the trailer's last word.
+inline constexpr std::uint32_t threshold_mask = 0xFF;
+inline constexpr std::uint32_t Checked = 1u << 8;  ///< the packet has a checksum
+inline constexpr std::uint32_t checksum_shift = 16;
+
+/// Takes a word of a packet into its sum, which begins at 0: any bit that is wrong changes it, and
+/// so do words that change places, for it turns by a bit with each.
+constexpr std::uint32_t add_to_sum(std::uint32_t sum, std::uint32_t word) {
+  return (sum << 1 | sum >> 31) ^ word;
+}
+/// The trailer's last word with the checksum: of `sum` over all words before, and of its own bits.
+constexpr std::uint32_t checked_word(std::uint32_t sum, std::uint32_t threshold) {
+  const std::uint32_t all = add_to_sum(sum, threshold | Checked);
+  return ((all ^ all >> 16) & 0xFFFF) << checksum_shift | threshold | Checked;
+}
 
 /// More blobs of a frame are dropped and counted as lost: the longest packet has a bound, what a
 /// LENGTH of 18 bits counts.

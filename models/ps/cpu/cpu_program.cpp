@@ -36,6 +36,7 @@ int call_entry(int (*entry)(void)) {
 }  // namespace
 
 volatile unsigned ProgramWatch::suspicions_ = 0;
+volatile bool ProgramWatch::ends_itself = false;
 ProgramWatch::BlockCounts* ProgramWatch::block_counts = nullptr;
 CodeCharge* ProgramWatch::charge = nullptr;
 std::uint64_t ProgramWatch::counted_ = 0, ProgramWatch::counted_limit_ = ~std::uint64_t{0};

@@ -24,6 +24,8 @@ struct ProgramWatch : vp::ForeignCode {
   /// __sanitizer_cov_trace_pc(). Null: not counted. Set before the program starts.
   using BlockCounts = std::unordered_map<std::uintptr_t, std::uint64_t>;
   static BlockCounts* block_counts;
+  /// The program looks at `stop` often, and ends by itself: it is not left where it is.
+  static volatile bool ends_itself;
   /// Of the program that runs, while its code takes time; null: it takes none, or block_cycles.
   static CodeCharge* charge;
   /// Units of the charge that the program may use up between two looks at it.
@@ -40,6 +42,7 @@ struct ProgramWatch : vp::ForeignCode {
   }
   /// The program's code is about to run; `blocks` without HAL call are a suspicion.
   static void start(std::uint64_t blocks) {
+    ends_itself = false;
     counted_limit_ = blocks;
     ForeignCode::start(block_counts || charge ? 1 : blocks);
     leave_hal();

@@ -94,6 +94,7 @@ void LinuxRun::connect(Zynq& zynq, CacheContract& caches) {
 // Nothing here has a destructor that matters: a failure ends the program at once.
 int LinuxRun::serve_to_end() {
   boot();
+  ps::ProgramWatch::ends_itself = true;  // where the application is has to be asked first
   while (true) {
     using Stop = ps::ProgramWatch::Stop;
     if (ps::ProgramWatch::stop == Stop::host_time) {

@@ -114,18 +114,14 @@ Status Application::read_packet(Slot& slot) {
   const std::uint32_t count = blob_stream::blobs_in(bytes);
   if (count == blob_stream::no_packet) return capture_.distrust(Status::malformed_packet);
   hal_cache_invalidate(slot.buffers.packet.data, bytes);
-  const auto* const words = static_cast<const std::uint32_t*>(slot.buffers.packet.data);
-  slot.blobs = {words, count};
-  slot.trailer = words + count * blob_stream::words_per_blob;
-  if (slot.trailer[blob_stream::blobs_sent] != count) {
-    return capture_.distrust(Status::malformed_packet);
-  }
-  const std::uint32_t camera_frame = slot.trailer[blob_stream::frame_number];
-  if (knows_camera_frame_ && camera_frame != camera_frame_ + 1) {
+  const Status status =
+      slot.packet.read(static_cast<const std::uint32_t*>(slot.buffers.packet.data), count);
+  if (status != Status::ok) return capture_.distrust(status);
+  if (knows_camera_frame_ && slot.packet.camera_frame != camera_frame_ + 1) {
     return capture_.distrust(Status::wrong_frame);
   }
   knows_camera_frame_ = true;
-  camera_frame_ = camera_frame;
+  camera_frame_ = slot.packet.camera_frame;
   return Status::ok;
 }
 
@@ -154,15 +150,15 @@ void Application::find_markers(const Slot& slot) {
       lens_of(frame),
       true};
   picture.optics = optics_.begin(frame);
-  result_.camera_frame = slot.trailer[blob_stream::frame_number];
-  result_.lost_in_logic = slot.trailer[blob_stream::lost];
-  result_.threshold = slot.trailer[blob_stream::threshold];
+  result_.camera_frame = slot.packet.camera_frame;
+  result_.lost_in_logic = slot.packet.lost;
+  result_.threshold = slot.packet.threshold;
   marker::DetectionTimes& times = result_.times;
   times.detection.start = capture_.now();
   if (options_.second_core) {
-    both_cores_.find(picture, slot.blobs, result_.found);
+    both_cores_.find(picture, slot.packet.blobs, result_.found);
   } else {
-    detector_.find_markers(picture, slot.blobs, result_.found);
+    detector_.find_markers(picture, slot.packet.blobs, result_.found);
   }
   // Both cores found the poses of single markers.
   bool needs_poses =

@@ -6,6 +6,7 @@
 #include <apps/improved/options.h>
 #include <apps/improved/own_dictionary.h>
 #include <hal/hal.h>
+#include <marker/blob_packet.h>
 #include <marker/detection_result.h>
 #include <marker/marker_detector.h>
 #include <marker/pose_filter.h>
@@ -31,8 +32,7 @@ class Application {
     Status status;                    ///< so far
     std::uint64_t started, captured;  ///< counts of the global timer
     DmaStatus dma;                    ///< of a frame that went wrong
-    marker::BlobList blobs;
-    const std::uint32_t* trailer;
+    marker::BlobPacket packet;
   };
 
   bool initialise();

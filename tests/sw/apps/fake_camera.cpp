@@ -12,6 +12,12 @@ constexpr std::uint32_t acknowledge = 0xF8F0'010C;
 constexpr std::uint32_t timer = 0xF8F0'0200;
 constexpr std::uint32_t dmacr = 0x30, dmasr = 0x34, address = 0x48, length = 0x58;
 
+void add_checksum(std::vector<std::uint32_t>& words) {
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) sum = blob_stream::add_to_sum(sum, words[i]);
+  words.back() = blob_stream::checked_word(sum, words.back() & blob_stream::threshold_mask);
+}
+
 }  // namespace
 
 FakeCamera::FakeCamera() {
@@ -137,6 +143,8 @@ void FakeCamera::send_packet() {
   if (words.size() >= blob_stream::trailer_words) {
     words[words.size() - blob_stream::trailer_words] =
         triggers - 1 + (is_wrong() ? number_offset : 0);
+    if (checksum) add_checksum(words);
+    if (is_wrong() && wrong_bit) words[*wrong_bit / 32] ^= 1u << (*wrong_bit % 32);
   }
   std::vector<std::uint8_t> bytes(words.size() * 4);
   std::memcpy(bytes.data(), words.data(), bytes.size());

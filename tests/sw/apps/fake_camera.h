@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fake_hal.h"
@@ -21,13 +22,15 @@ class FakeCamera {
   std::vector<CameraFrame> frames;
   /// The packet's trailer says the number of the trigger, plus so much.
   std::uint32_t number_offset = 0;
+  bool checksum = false;  ///< at the packet's end
 
   // How things go wrong, from trigger number `wrong_from` on, `wrong_times` times.
   std::uint32_t wrong_from = 0xFFFF'FFFF, wrong_times = 1;
   bool sends_packet = true, sends_picture = true;  ///< when wrong
   std::uint32_t packet_error = 0, picture_error = 0;
   std::uint32_t picture_bytes_short = 0;
-  std::uint32_t picture_delay = 0;  ///< always: reads of its status until it is in memory
+  std::optional<std::uint32_t> wrong_bit;  ///< of the packet, when wrong
+  std::uint32_t picture_delay = 0;         ///< always: reads of its status until it is in memory
   bool reset_hangs = false;
 
   // What the program did.

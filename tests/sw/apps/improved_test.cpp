@@ -358,6 +358,33 @@ BOOST_AUTO_TEST_CASE(a_frame_of_another_trigger_is_refused) {
   BOOST_TEST((result(2).status == Status::ok));
 }
 
+BOOST_AUTO_TEST_CASE(any_wrong_bit_of_a_packet_with_a_checksum_is_noticed) {
+  const std::uint32_t bits = static_cast<std::uint32_t>(one_marker().packet.size()) * 32;
+  const std::uint32_t is_checked = bits - 32 + 8;  // without it there is no checksum to look at
+  for (std::uint32_t bit = 0; bit < bits; bit += 1 + bit % 7) {
+    Fixture f;
+    f.camera.checksum = true;
+    f.camera.wrong_from = 1;
+    f.camera.wrong_bit = bit;
+    f.show({one_marker(), one_marker(), one_marker()});
+    BOOST_TEST_CONTEXT("bit " << bit) {
+      BOOST_TEST(f.run() == (bit == is_checked ? 0 : 1));
+      BOOST_TEST((f.result(0).status == Status::ok));
+      BOOST_TEST(f.result(0).found.count == 1u);
+      BOOST_TEST((f.result(1).status == Status::ok) == (bit == is_checked));
+      BOOST_TEST((f.result(2).status == Status::ok));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(without_a_checksum_a_wrong_bit_of_a_blob_is_believed) {
+  camera.wrong_from = 0;
+  camera.wrong_bit = 4;
+  show({one_marker()});
+  BOOST_TEST(run() == 0);
+  BOOST_TEST((result(0).status == Status::ok));
+}
+
 BOOST_AUTO_TEST_CASE(sizes_that_the_logic_or_the_dma_does_not_allow_are_refused) {
   camera.frames = {one_marker()};
   for (const auto& [width, height] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{

@@ -2,6 +2,7 @@
 // end. Companion of the model, which says what is dropped.
 module blob_stream #(
     parameter int FIFO_DEPTH = 512,  // words that wait, besides the output register
+    parameter int CHECKSUM = 0,      // 1: the packet ends with a sum of its words
     parameter int COUNT_BITS = $clog2(FIFO_DEPTH + 1)
 ) (
     input  logic        clk,
@@ -113,11 +114,19 @@ module blob_stream #(
   end
 
   logic [32*BLOB_WORDS-1:0] blob;
-  wire [127:0] trailer = {24'd0, threshold_used, lost, 19'd0, sent, number};
+  // What was pushed of the packet: turned by a bit with each word.
+  logic [31:0] sum;
+  wire [31:0] turned = {sum[30:0], sum[31]};
+  wire [15:0] own = {7'd0, 1'b1, threshold_used};
+  wire [31:0] last_word = CHECKSUM != 0 ? {turned[31:16] ^ turned[15:0] ^ own, own} : {24'd0, threshold_used};
+  wire [127:0] trailer = {last_word, lost, 19'd0, sent, number};
   wire [31:0] word = is_trailer ? trailer[32*place[1:0]+:32] : blob[32*place+:32];
-  always_ff @(posedge clk)
+  always_ff @(posedge clk) begin
+    if (opens) sum <= '0;
+    else if (push) sum <= turned ^ word;
     if (sender_free)
       blob <= {extreme_7, extreme_6, extreme_5, extreme_4, extreme_3, extreme_2, extreme_1, extreme_0};
+  end
 
   // The FIFO keeps TLAST beside each word.
   logic [32:0] fifo[0:FIFO_DEPTH-1];

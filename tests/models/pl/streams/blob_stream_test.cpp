@@ -104,6 +104,24 @@ BOOST_AUTO_TEST_CASE(a_packet_is_blobs_and_trailer_at_exact_times) {
   BOOST_TEST(b.trailer() == (Words{5, 2, 0, 77}), boost::test_tools::per_element());
 }
 
+BOOST_AUTO_TEST_CASE(a_checksum_takes_no_clock) {
+  BlobBench b({"blob_stream.checksum=true"});
+  for (const std::uint32_t number : {5u, 6u}) {
+    b.begin(number);
+    b.blob(100);
+    b.end();
+    const std::uint64_t ended = kit::now_ps() + 5'000;
+    b.clocks(20);
+    BOOST_TEST(b.sink.beats[8].ps == ended + 3 * period);
+    const Words words = b.packet();
+    BOOST_REQUIRE(words.size() == blob_stream::packet_words(1));
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) sum = blob_stream::add_to_sum(sum, words[i]);
+    BOOST_TEST(words.back() == blob_stream::checked_word(sum, 77));
+    BOOST_TEST((words.back() & (blob_stream::Checked | 0xFF)) == (blob_stream::Checked | 77u));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_frame_without_blobs_has_a_trailer) {
   BlobBench b;
   b.begin(0);
