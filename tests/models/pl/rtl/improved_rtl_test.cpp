@@ -75,8 +75,12 @@ const Bug bugs[] = {
      "32'd0);\n    end\n    // While", "m_tdata"},
     {"busy_too_short", "blob_stream", "blob_stream.sv", "packet_ends = sent_last && is_trailer",
      "packet_ends = push && is_trailer", "busy"},
-    {"losses_of_all_frames", "blob_stream", "blob_stream.sv", "{24'd0, threshold_used, lost",
-     "{24'd0, threshold_used, dropped_blobs", "m_tdata"},
+    {"sum_not_turned", "blob_stream", "blob_stream.sv", "turned = {sum[30:0], sum[31]}",
+     "turned = sum", "m_tdata"},
+    {"threshold_not_summed", "blob_stream", "blob_stream.sv", "turned[15:0] ^ own, own}",
+     "turned[15:0], own}", "m_tdata"},
+    {"losses_of_all_frames", "blob_stream", "blob_stream.sv", "{last_word, lost",
+     "{last_word, dropped_blobs", "m_tdata"},
     {"trigger_under_way", "camera", "camera.sv", "rises && !busy && !hold", "rises && !hold",
      "sensor_trigger"},
     {"held_trigger_not_counted", "camera", "camera.sv", "32'(rises && !starts)",
@@ -146,6 +150,8 @@ const std::uint32_t groups[] = {1, 2, 4};
 
 /// Pixels on an edge where the local threshold takes a share of the mean.
 constexpr std::uint32_t share_at = 2;
+/// Pixels on an edge where packets have a checksum.
+constexpr std::uint32_t checked_at = 1;
 
 const Strings thresholds{"otsu_threshold", "global_threshold", "local_threshold"};
 const Strings ips{"camera",          "blob_labelling", "otsu_threshold", "global_threshold",
@@ -164,7 +170,8 @@ const pl::Models<pl::GlobalThreshold>& models_of(const std::string& threshold) {
 constexpr pl::Geometry size{64, 32, 32};
 
 std::string parameters(const std::string& ip, std::uint32_t pixels) {
-  if (ip == "blob_stream") return "FIFO_DEPTH=20";
+  if (ip == "blob_stream")
+    return pixels == checked_at ? "FIFO_DEPTH=20 CHECKSUM=1" : "FIFO_DEPTH=20";
   std::string all = "WIDTH=64 HEIGHT=32 PIXELS_PER_CLOCK=" + std::to_string(pixels);
   if (ip == "blob_labelling") all += " LABELS=16 MINIMUM_SIDE=2 RUN_FIFO_DEPTH=12";
   if (ip == "local_threshold") all += " RADIUS=3";
@@ -175,7 +182,7 @@ std::string parameters(const std::string& ip, std::uint32_t pixels) {
 
 /// The object of an IP without a bug.
 std::string object_of(const std::string& ip, std::uint32_t pixels) {
-  return ip == "blob_stream" ? ip : ip + "_" + std::to_string(pixels);
+  return ip == "blob_stream" && pixels != checked_at ? ip : ip + "_" + std::to_string(pixels);
 }
 
 const RtlObjects& objects() {
@@ -244,6 +251,7 @@ struct Chain : kit::Simulation {
     if (rule == "local_threshold") all.push_back("local_threshold.radius=3 px");
     if (rule == "local_threshold" && a_clock != share_at)
       all.insert(all.end(), {"local_threshold.relative=0", "local_threshold.offset=10"});
+    if (a_clock == checked_at) all.push_back("blob_stream.checksum=true");
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
