@@ -5,12 +5,13 @@
 #include <filesystem>
 
 #include "executable.h"
+#include "linux_place.h"
 
 using namespace integration;
 
 namespace {
 
-struct Linux : Workplace {
+struct Linux : LinuxPlace {
   kit::Outcome start(const std::string& application, const Arguments& arguments,
                      const Arguments& options = {}) const {
     Arguments all{"--linux", MARKERVP_APPLICATIONS + application, "--no-report"};
@@ -162,7 +163,7 @@ BOOST_AUTO_TEST_CASE(an_application_with_a_sanitizer) {
   BOOST_TEST(outcome.exit_code == 1);
   BOOST_TEST(contains(outcome.err, "AddressSanitizer: SEGV on unknown address"), outcome.err);
   outcome = start(mistakes, {}, {"unmapped"});
-  BOOST_TEST(outcome.exit_code == 3);
+  BOOST_TEST(outcome.exit_code == 3, outcome.err);
   BOOST_TEST(contains(outcome.err, "data abort: write to 0x50000000"), outcome.err);
 }
 
