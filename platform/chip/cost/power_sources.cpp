@@ -64,7 +64,7 @@ class Builder {
 
   void add_design(const std::vector<Part>& parts) {
     for (const Part& ip : parts) add_ip(ip);
-    for (const Design::ClockRole& role : zynq_.design().clock_roles()) add_clock_root(role);
+    for (const Design::ClockRole& role : zynq_.design().clock_roles()) add_clock_net(role, parts);
     add_hp_port();
   }
 
@@ -154,9 +154,13 @@ class Builder {
         [written = written_] { return written.bytes(); });
   }
 
-  void add_clock_root(const Design::ClockRole& role) {
+  void add_clock_net(const Design::ClockRole& role, const std::vector<Part>& parts) {
+    double ff = 0;
+    for (const Part& ip : parts) {
+      if (ip.clock == role.clock) ff += ip.estimate.ff;
+    }
     add("pl.clocks." + role.role, role.group, "Vccint", PowerKind::clock, origin("pl.clock_root"),
-        power::clock_root_energy(table_), &states_.pl_clock(*role.clock).hz);
+        power::clock_net_energy(table_, ff), &states_.pl_clock(*role.clock).hz);
   }
 
   void add_ip(const Part& ip) {

@@ -23,8 +23,9 @@ vp::Band logic_energy(const PowerTable& table, double lut, double ff,
                       const std::string& coefficient = "pl.logic");
 /// The clock tree to so many flip-flops, J per clock. So are the next ones.
 vp::Band clock_energy(const PowerTable& table, double ff);
-/// A clock net, loaded or not.
-vp::Band clock_root_energy(const PowerTable& table);
+/// A clock net, loaded or not, and its branches, which reach over an area that grows with the
+/// flip-flops on it.
+vp::Band clock_net_energy(const PowerTable& table, double ff);
 /// Block memories of 36 kbit.
 vp::Band block_memory_energy(const PowerTable& table, double bram36,
                              const std::string& coefficient = "pl.bram");
