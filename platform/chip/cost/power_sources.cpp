@@ -168,10 +168,28 @@ class Builder {
     const Band clock = power::clock_energy(table_, e.ff);
     add(ip.module, ip.group, "Vccint", PowerKind::clock, origin("pl.clock"), clock,
         &states_.pl_clock(*ip.clock).hz);
+    if (by_activity_ && e.foreign.toggles.bits != 0) return add_simulated(ip);
     const std::string coefficient = logic_coefficient(ip);
     add_activity(ip, "Vccint", coefficient, logic(ip, coefficient, clock));
     if (e.dsp != 0) add_activity(ip, "Vccint", "pl.dsp", power::dsp_energy(table_, e.dsp));
     if (e.bram36 > 0) add_block_memory(ip);
+  }
+
+  /// RTL of which nothing but its signals says when it works: by their changes, multipliers and
+  /// memories by the clocks in which there are as many as usual.
+  void add_simulated(const Part& ip) {
+    const vp::IpEstimate& e = ip.estimate;
+    const auto& toggles = e.foreign.toggles;
+    toggles.begin();
+    add(ip.module, ip.group, "Vccint", PowerKind::event, origin("pl.logic_simulated"),
+        power::change_energy(table_, e.lut, e.ff, static_cast<double>(toggles.bits)), nullptr,
+        toggles.changes);
+    if (e.dsp != 0)
+      add(ip.module, ip.group, "Vccint", PowerKind::event, origin("pl.dsp_busy"),
+          power::dsp_energy(table_, e.dsp, "pl.dsp_busy"), nullptr, toggles.busy_clocks);
+    if (e.bram36 > 0)
+      add(ip.module, ip.group, "Vccbram", PowerKind::event, origin("pl.bram"),
+          power::block_memory_energy(table_, e.bram36), nullptr, toggles.busy_clocks);
   }
 
   /// The coefficient of an IP that has one of its own; else that of logic in general.

@@ -30,6 +30,10 @@ vp::Band logic_energy(const PowerTable& table, double lut, double ff,
   return table.value(coefficient) * (toggles * lut * per_thousand * nano);
 }
 
+vp::Band change_energy(const PowerTable& table, double lut, double ff, double bits) {
+  return logic_energy(table, lut, ff, "pl.logic_simulated") * (1 / (default_toggle_rate * bits));
+}
+
 vp::Band clock_energy(const PowerTable& table, double ff) {
   return table.value("pl.clock") * (ff * per_thousand * nano);
 }
