@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -39,16 +38,14 @@ class RtlActivity {
   double busy_clocks() const { return busy_clocks_; }
 
  private:
-  struct Pin {
-    std::size_t offset, bytes;
-  };
   void look();
   void plan();
   std::uint64_t changed_bits() const;
 
   const RtlObject& rtl_;
   std::uint64_t bits_ = 0;
-  std::vector<Pin> pins_;  ///< within the state: their power is that of what drives them
+  /// The state without pins, whose power is that of what drives them; whole words of it.
+  std::vector<std::uint64_t> counted_;
   std::vector<unsigned char> before_;
   std::uint64_t left_ = 0;   ///< edges until the next comparison; 0: nothing is counted
   std::uint64_t edges_ = 0;  ///< since the last one

@@ -42,10 +42,10 @@ BOOST_AUTO_TEST_SUITE(rtl_activity)
 
 BOOST_FIXTURE_TEST_CASE(signals_are_counted_and_memories_are_not, Bench) {
   BOOST_TEST(toggles.bits >= words_bits);
-  BOOST_TEST(toggles.bits < 2 * words_bits);  // of 262 144 in the memory
+  BOOST_TEST(toggles.bits < 2 * words_bits);  // of 32 768 in the memory
 }
 
-// 32 KB of state are compared at one of about 66 edges, so the last ones may not be counted yet.
+// 4 KB of state are compared at one of about 68 edges, so the last ones may not be counted yet.
 BOOST_FIXTURE_TEST_CASE(each_change_of_busy_logic_counts, Bench) {
   constexpr std::uint64_t clocks = 20'000;
   toggles.begin();
@@ -62,7 +62,7 @@ BOOST_FIXTURE_TEST_CASE(idle_logic_of_the_same_size_changes_nothing, Bench) {
 }
 
 BOOST_FIXTURE_TEST_CASE(logic_that_works_for_a_quarter_of_the_time_counts_as_such, Bench) {
-  constexpr std::uint64_t stretch = 50, times = 400;
+  constexpr std::uint64_t stretch = 50, times = 2000;
   toggles.begin();
   for (std::uint64_t i = 0; i < times; ++i) {
     works = i % 4 == 0;

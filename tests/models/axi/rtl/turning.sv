@@ -8,8 +8,8 @@ module turning (
     output logic [31:0] word
 );
   logic [31:0] bits[0:15];
-  logic [31:0] memory[0:8191];
-  logic [12:0] address;
+  logic [31:0] memory[0:1023];
+  logic [9:0] address;
   always_comb begin
     sum = idle_input;
     for (int i = 0; i < 16; i++) sum ^= bits[i];
@@ -17,7 +17,7 @@ module turning (
   always_ff @(posedge clk)
     if (!rst_n) begin
       for (int i = 0; i < 16; i++) bits[i] <= 32'(i);
-      address <= 13'd0;
+      address <= 10'd0;
     end else begin
       word <= memory[address];
       if (idle_input[31]) memory[address] <= idle_input;
