@@ -16,6 +16,7 @@ import json
 import math
 import statistics
 import sys
+from collections import Counter
 
 PRINTED_W = 0.0005  # half of the last digit of a report
 LEAST_LUT = 100  # below that a report's milliwatts have no digit left
@@ -27,6 +28,9 @@ STATIC_BANDS = {"static.bram": 0.015, "static.older_tool_7020": 0.004, "static.o
 BAND_SCALE = 1.2  # of the kinds, so that nine of ten totals lie inside as well
 STATIC_OF_DEVICE = {"xc7z020": 1.0, "xc7z010": 0.874}  # data/devices
 LAST_OLDER_TOOL = (2017, 2)  # its Vccaux is 21 mA on an XC7Z020; that of 2017.3 is 15
+REWEIGHTINGS, LEAST_REST = 60, 1e-4  # of least absolute errors
+LISTS_AND_TEXTS = ("set", "family", "repository", "commit", "top", "vivado", "device", "clocks_mhz", "mmcm_mhz",
+                   "mmcm_fractional_mhz")
 PLACES = 3  # significant digits of a coefficient
 
 
@@ -36,8 +40,10 @@ class Report:
         self.is_zynq = self.device in STATIC_OF_DEVICE
         self.older_tool = tuple(map(int, row["vivado"].split("."))) <= LAST_OLDER_TOOL
         self.clocks_mhz = [float(mhz) for mhz in row["clocks_mhz"].split()]
+        self.mmcm_ghz = [float(mhz) / 1e3 for mhz in row["mmcm_mhz"].split()]
+        self.mmcm_fractional_ghz = [float(mhz) / 1e3 for mhz in row["mmcm_fractional_mhz"].split()]
         for key, value in row.items():
-            if key not in ("set", "family", "repository", "commit", "top", "vivado", "device", "clocks_mhz"):
+            if key not in LISTS_AND_TEXTS:
                 setattr(self, key, float(value) if value else None)
 
 
@@ -82,41 +88,69 @@ class Logic:
         return c["pl.logic"] * (r.lut / r.ff) ** c["pl.logic_depth"] * r.lut * r.clock_mhz * 1e-6 if r.ff else 0
 
 
-class Clocks:
-    """Each net takes its own, loaded or not, and each flip-flop a share: least squares of relative errors, none negative."""
+class LinearKind:
+    """A sum of physical quantities, each with a coefficient: least absolute relative errors, so that a report that is far off does
+    not pull the others with it. One vote a family, no coefficient negative."""
 
-    name, column = "clock trees", "clocks_w"
+    def __init__(self, name, column, coefficients, applies, quantities):
+        self.name, self.column, self.coefficients = name, column, coefficients
+        self.applies, self.quantities = applies, quantities
 
-    @staticmethod
-    def applies(r):
-        return r.lut > LEAST_LUT and r.clock_mhz > LEAST_MHZ and r.clocks_mhz and r.clocks_w is not None
-
-    @staticmethod
-    def of(r):
-        """MHz of all nets, and of the flip-flops in thousands."""
-        return sum(r.clocks_mhz), r.ff * r.clock_mhz * 1e-3
-
-    @classmethod
-    def fit(cls, reports):
-        votes = {r.family: sum(other.family == r.family for other in reports) for r in reports}
-        nets2 = both = loads2 = nets = loads = 0
+    def fit(self, reports):
+        votes = Counter(r.family for r in reports)
+        rows = []
         for r in reports:
-            (n, f), w = cls.of(r), 1 / max(r.clocks_w, PRINTED_W)
-            vote = 1 / votes[r.family]
-            nets2, both, loads2 = nets2 + vote * (n * w) ** 2, both + vote * n * f * w * w, loads2 + vote * (f * w) ** 2
-            nets, loads = nets + vote * n * w, loads + vote * f * w
-        determinant = nets2 * loads2 - both * both
-        root, tree = (nets * loads2 - loads * both) / determinant, (loads * nets2 - nets * both) / determinant
-        if root < 0:
-            root, tree = 0, loads / loads2
-        if tree < 0:
-            root, tree = nets / nets2, 0
-        return {"pl.clock_root": root * 1e3, "pl.clock": tree * 1e3}
+            watts = max(getattr(r, self.column), PRINTED_W)
+            rows.append(([quantity / watts for quantity in self.quantities(r)], 1 / votes[r.family]))
+        return dict(zip(self.coefficients, least_absolute(rows)))
 
-    @classmethod
-    def predict(cls, r, c):
-        nets, loads = cls.of(r)
-        return 1e-3 * (c["pl.clock_root"] * nets + c["pl.clock"] * loads)
+    def predict(self, r, c):
+        return sum(c[name] * quantity for name, quantity in zip(self.coefficients, self.quantities(r)))
+
+
+def least_absolute(rows):
+    """x >= 0 of the least sum of weight |row x - 1|: least squares, weighted anew by what each left over."""
+    used = list(range(len(rows[0][0])))
+    while True:
+        x = [0.0] * len(used)
+        for _ in range(REWEIGHTINGS):
+            weights = [weight / max(LEAST_REST, abs(sum(row[u] * v for u, v in zip(used, x)) - 1)) for row, weight in rows]
+            matrix = [[sum(w * row[i] * row[j] for w, (row, _) in zip(weights, rows)) for j in used] for i in used]
+            x = solved(matrix, [sum(w * row[i] for w, (row, _) in zip(weights, rows)) for i in used])
+        if min(x) >= 0:
+            return [x[used.index(i)] if i in used else 0.0 for i in range(len(rows[0][0]))]
+        del used[x.index(min(x))]
+
+
+def solved(matrix, right):
+    """Gauss: of a positive definite matrix, no pivot is 0."""
+    rows = [line + [value] for line, value in zip(matrix, right)]
+    for i in range(len(rows)):
+        rows[i] = pivot = [v / rows[i][i] for v in rows[i]]
+        rows = [row if row is pivot else [v - row[i] * p for v, p in zip(row, pivot)] for row in rows]
+    return [row[-1] for row in rows]
+
+
+def has_clocks(r):
+    return r.lut > LEAST_LUT and r.clock_mhz > LEAST_MHZ and r.clocks_mhz and r.clocks_w is not None
+
+
+def clock_quantities(r):
+    """Each net takes its own, loaded or not; its branches reach over the square root of its flip-flops; each of them is a load.
+    1e-3: mW/MHz, and so on."""
+    loads = r.ff * 1e-3 * r.clock_mhz * 1e-3
+    return sum(r.clocks_mhz) * 1e-3, math.sqrt(r.ff * 1e-3) * r.clock_mhz * 1e-3, loads
+
+
+def has_known_oscillators(r):
+    return r.mmcms and r.mmcm_w is not None and len(r.mmcm_ghz + r.mmcm_fractional_ghz) == r.mmcms
+
+
+def mmcm_quantities(r):
+    """A manager takes its own, its oscillator by GHz, and more of a fractional counter. At 1 GHz and whole where nothing is known."""
+    unknown = r.mmcms - len(r.mmcm_ghz + r.mmcm_fractional_ghz)
+    fractional_ghz = sum(r.mmcm_fractional_ghz)
+    return r.mmcms, sum(r.mmcm_ghz) + fractional_ghz + unknown, fractional_ghz
 
 
 class PerPrimitive:
@@ -136,26 +170,26 @@ class PerPrimitive:
         return c[self.coefficient] * getattr(r, self.count) * r.clock_mhz * 1e-6
 
 
-class Managers:
-    """Clock managers, of an oscillator at 1 GHz: what most make. A memory controller's, on other devices, are slower."""
-
-    def __init__(self, name, column, coefficient, count):
-        self.name, self.column, self.coefficient, self.count = name, column, coefficient, count
+class Plls(PerPrimitive):
+    """PLL at 1 GHz, as most are. A memory controller's, on other devices, are slower."""
 
     def applies(self, r):
-        return r.is_zynq and getattr(r, self.count) and getattr(r, self.column) is not None
+        return r.is_zynq and r.plls and r.pll_w is not None
 
     def fit(self, reports):
-        return {self.coefficient: statistics.median(by_family(
-            reports, lambda r: getattr(r, self.column) / getattr(r, self.count)))}
+        return {self.coefficient: statistics.median(by_family(reports, lambda r: r.pll_w / r.plls))}
 
     def predict(self, r, c):
-        return c[self.coefficient] * getattr(r, self.count)
+        return c[self.coefficient] * r.plls
 
 
-KINDS = [Logic, Clocks, PerPrimitive("block memories", "bram_w", "pl.bram", "bram36"),
-         PerPrimitive("multipliers", "dsp_w", "pl.dsp", "dsp"), Managers("MMCM", "mmcm_w", "pl.mmcm", "mmcms"),
-         Managers("PLL", "pll_w", "pl.pll", "plls")]
+KINDS = [Logic,
+         LinearKind("clock trees", "clocks_w", ("pl.clock_root", "pl.clock_branch", "pl.clock"), has_clocks, clock_quantities),
+         PerPrimitive("block memories", "bram_w", "pl.bram", "bram36"),
+         PerPrimitive("multipliers", "dsp_w", "pl.dsp", "dsp"),
+         LinearKind("MMCM", "mmcm_w", ("pl.mmcm", "pl.mmcm_oscillator", "pl.mmcm_fractional"), has_known_oscillators,
+                    mmcm_quantities),
+         Plls("PLL", "pll_w", "pl.pll", "plls")]
 
 
 class Leakage:
@@ -279,7 +313,8 @@ def scaled(errors):
 
 def bands(coefficients, validation):
     """low, nominal, high of each coefficient that has a kind's errors."""
-    of_kind = {"pl.logic": 0, "pl.clock": 1, "pl.clock_root": 1, "pl.bram": 2, "pl.dsp": 3, "pl.mmcm": 4, "pl.pll": 5}
+    of_kind = {"pl.logic": 0, "pl.bram": 2, "pl.dsp": 3, "pl.pll": 5,
+               **dict.fromkeys(KINDS[1].coefficients, 1), **dict.fromkeys(KINDS[4].coefficients, 4)}
     result = {}
     for name, value in coefficients.items():
         low, high = scaled(validation.kinds[of_kind[name]]) if name in of_kind else (1, 1)

@@ -67,6 +67,8 @@ RtlPart::RtlPart(sc_core::sc_module_name name, const std::string& file, const Cl
   rest_ = std::make_unique<pl::RtlRest>(descriptor.state_bytes, sides_.size());
   vp::IpEstimate::Foreign foreign = rtl_->foreign();
   foreign.figures = figures_.get();
+  activity_ = std::make_unique<pl::RtlActivity>(*rtl_);
+  if (!is_logic_) foreign.toggles = activity_->toggles();
   set_foreign(std::move(foreign));
   settles_.defer_writes();
   settles_.attach(*this, settle_id);
@@ -426,6 +428,7 @@ void RtlPart::edge_of(std::size_t clock) {
     if (rises(bus) && bus->drive()) changed = true;
   }
   lower(changed && !registered_);
+  activity_->edge();
   show_outputs();
   if (changed) rest_->inputs_changed();
   if (rest_->due()) rest(risen);

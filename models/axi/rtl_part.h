@@ -14,6 +14,7 @@
 #include <axi/input_checker.h>
 #include <axi/interfaces.h>
 #include <axi/rtl_links.h>
+#include <pl/common/rtl_activity.h>
 #include <pl/common/rtl_object.h>
 #include <pl/common/rtl_rest.h>
 #include <vp/axi_stream.h>
@@ -180,6 +181,7 @@ class RtlPart final : public sc_core::sc_module, public vp::Ip, private vp::Sign
   std::uint64_t edge_ps_ = vp::Clock::never, settle_ps_ = 0;
   unsigned settled_ = 0;  ///< times at settle_ps_
   std::unique_ptr<pl::RtlRest> rest_;
+  std::unique_ptr<pl::RtlActivity> activity_;
 };
 
 template <class T>

@@ -34,6 +34,12 @@ struct PowerReport {
     double mj = 0;       ///< per frame
     std::string source;  ///< of the coefficient
   };
+  /// RTL whose signals were counted.
+  struct Activity {
+    std::string name;
+    double toggle_rate = 0;  ///< changes of a bit in a clock; the vendor's default is 0.125
+    std::uint64_t bits = 0;  ///< of its signals
+  };
 
   std::string mode;      ///< "vivado-default" or "activity"
   std::string table;     ///< name of the coefficients
@@ -44,7 +50,8 @@ struct PowerReport {
   double static_w = 0;        ///< of the whole device
   std::map<std::string, double> rails;
   std::vector<Module> modules;  ///< their sum is the total
-  bool per_frame = true;        ///< false: there were no results
+  std::vector<Activity> activity;
+  bool per_frame = true;  ///< false: there were no results
   double energy_per_frame_mj = 0;
 };
 

@@ -306,6 +306,26 @@ std::string power_line(const std::optional<facts::PowerReport>& known,
   return text + fmt::format("   junction {:.0f} C   ({})\n", power.junction_c, power.mode);
 }
 
+/// The busiest RTL, as much as a line holds, if any was counted.
+std::string activity_line(const std::optional<facts::PowerReport>& power) {
+  if (!power || power->activity.empty()) return "";
+  std::vector<facts::PowerReport::Activity> list = power->activity;
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.toggle_rate > b.toggle_rate; });
+  const std::string what = "   changes a bit and clock (usual 0.125)";
+  std::string text = "activity";
+  std::size_t shown = 0;
+  for (const auto& [name, rate, bits] : list) {
+    const std::string more = fmt::format("{} {} {:.3f}", shown == 0 ? "" : ",", name, rate);
+    const std::string others = ", 99 others";
+    if (shown > 0 && text.size() + more.size() + others.size() + what.size() > console_width) break;
+    text += more;
+    ++shown;
+  }
+  if (shown < list.size()) text += fmt::format(", {} others", list.size() - shown);
+  return text + what + "\n";
+}
+
 std::string timing_line(const facts::TimingReport& timing) {
   if (timing.modules.empty()) return "";
   const facts::TimingReport::Module& critical = critical_module(timing);
@@ -358,7 +378,8 @@ std::string resource_line(const facts::ResourceReport& resources) {
 std::string cost_text(const std::optional<facts::PowerReport>& power,
                       const facts::ResourceReport& resources, const facts::TimingReport& timing,
                       const std::string& unit) {
-  return power_line(power, resources, unit) + timing_line(timing) + resource_line(resources);
+  return power_line(power, resources, unit) + activity_line(power) + timing_line(timing) +
+         resource_line(resources);
 }
 
 }  // namespace

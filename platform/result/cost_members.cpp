@@ -41,6 +41,15 @@ Members<PowerOfModule> power_of_module_members() {
       .text("source", [](const PowerOfModule& of) { return of.module.source; });
 }
 
+Members<PowerReport::Activity> activity_members() {
+  using Activity = PowerReport::Activity;
+  return Members<Activity>()
+      .text("name", &Activity::name)
+      .figure({"toggle_rate", "1", "changes of a bit inside RTL in a clock"},
+              &Activity::toggle_rate, energy_places)
+      .figure({"signal_bits", "1", "bits of signals inside RTL"}, &Activity::bits);
+}
+
 Members<PowerReport> band_members() {
   return Members<PowerReport>()
       .figure({"low", "W", "lower end of its error band", Better::less}, &PowerReport::low_w,
@@ -115,7 +124,8 @@ const Members<PowerReport>& power_members() {
                 for (const auto& [rail, value] : power.rails) found(rail, value);
               },
               energy_places)
-          .list("modules", power_of_module_members(), modules_of);
+          .list("modules", power_of_module_members(), modules_of)
+          .list("activity", activity_members(), &PowerReport::activity, false);
   return members;
 }
 

@@ -28,6 +28,8 @@ constexpr std::size_t most_reasons = 8;
 
 /// Points that the page has: among so many a slider's move takes less than a tenth of a second.
 constexpr std::size_t most_page_points = 20'000;
+/// Points that are judged by bands if there are more than two objectives: each against all others.
+constexpr std::size_t most_judged = 5'000;
 
 /// The swept parameters that differ.
 std::vector<std::string> decisive(const Results& results) {
@@ -222,13 +224,21 @@ Json point_json(const Results& results, const ResultRow& row, const std::vector<
 struct Standing {
   std::size_t front = 0;              ///< 0 for none
   std::optional<std::size_t> better;  ///< the row that beats it
+  /// By the bands of the figures; none if these have none.
+  std::optional<result::Holds> dominated;
 };
 
-/// Of each row.
-std::vector<Standing> standings_of(const Results& results,
-                                   const std::vector<Objective>& objectives) {
+/// Of each row; and what the bands say of the front.
+struct Standings {
+  std::vector<Standing> rows;
+  std::string doubt;
+};
+
+Standings standings_of(const Results& results, const std::vector<Objective>& objectives) {
   std::vector<Standing> found(results.rows.size());
   Pareto pareto = rank(results, objectives);
+  if (objectives.size() <= 2 || pareto.points.size() <= most_judged)
+    judge_by_bands(pareto, objectives);
   find_better(pareto, objectives);
   const auto place_of = [&](const RankedPoint& point) {
     return static_cast<std::size_t>(point.row - results.rows.data());
@@ -237,8 +247,9 @@ std::vector<Standing> standings_of(const Results& results,
     Standing& standing = found[place_of(point)];
     standing.front = point.front;
     if (point.better) standing.better = place_of(pareto.points[*point.better]);
+    if (pareto.has_bands && point.front > 0) standing.dominated = point.dominated;
   }
-  return found;
+  return {std::move(found), doubt_text(pareto)};
 }
 
 /// The rows that the page has room for: all of the first front, and of the others every so many.
@@ -294,12 +305,14 @@ std::string page_block(const Results& results, const std::string& folder, const 
   if (!objectives.empty())
     json["influence"] = sensitivity_json(results, objectives.front().figure());
   json.update(more);
-  const std::vector<Standing> standings = standings_of(results, objectives);
+  const auto [standings, doubt] = standings_of(results, objectives);
+  if (!doubt.empty()) json["doubt"] = doubt;
   const std::vector<std::size_t> rows = page_rows(standings);
   std::string points;
   for (const std::size_t i : rows) {
     Json point = point_json(results, results.rows[i], columns, objectives);
     point["front"] = standings[i].front;
+    if (standings[i].dominated) point["dominated"] = result::to_string(*standings[i].dominated);
     if (standings[i].better) {
       const auto better = std::lower_bound(rows.begin(), rows.end(), *standings[i].better);
       if (better != rows.end() && *better == *standings[i].better)

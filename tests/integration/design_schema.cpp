@@ -85,6 +85,13 @@ class Checker {
     numbers(json, "rails",
             {"Vccaux and others", "Vccbram", "Vccint", "Vcco_ddr", "Vcco_mio", "Vccpaux", "Vccpint",
              "Vccpll"});
+    if (json.contains("activity")) {
+      for (const Json& activity : json["activity"]) {
+        text(activity, "name");
+        number(activity, "toggle_rate");
+        number(activity, "signal_bits");
+      }
+    }
     if (!array(json, "modules")) return;
     expect(!json["modules"].empty(), "power.modules is empty");
     for (const Json& module : json["modules"]) {

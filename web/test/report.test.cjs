@@ -24,6 +24,8 @@ const blocks = {
   const failed = (point) => ({ ...point, failed: true, front: 0, reasons: ["failed: it stood"], metrics: point.metrics.map(() => null) });
   blocks.onePoint = samples.sweep({ points: 1 });
   const best = sweep.points.find((p) => p.front === 1);
+  const judged = sweep.points.map((p) => ({ ...p, ...(p.front > 0 ? { dominated: p === best ? "no" : "unknown" } : {}) }));
+  blocks.doubtful = { sweep: { ...sweep, points: judged, doubt: "By the bands 1 of 3 points on the front can be beaten by no other" } };
   blocks.repeated = { sweep: { ...sweep, points: [...sweep.points, { ...best, key: "feedcafe", front: 0, same_as: "same as 75 MHz" }] } };
   blocks.idle = { sweep: { ...sweep, idle: "'profile' changes no result: 3 comparisons of points that differ in it alone show equal results.\n" } };
   blocks.notCompared = { sweep: { ...sweep, influence: { ...sweep.influence, rows: [], note: "no two of the points that count differ in one of these alone: profile; 'markervp sensitivity --at FOLDER/points/KEY.json'" } } };
@@ -674,6 +676,16 @@ for (const name of ["run", "comparison"]) {
     assert.ok(lowest <= first, `the legend ends at ${lowest}, the first bar begins at ${first}`);
   }, { viewport: { width: 400, height: 900 } }));
 }
+
+test("the front is for sure, or perhaps, as long as the limits are those of the study", () => open("doubtful", async (page) => {
+  const figure = page.locator("#trade-off figure").first();
+  await page.locator("#trade-off").scrollIntoViewIfNeeded();
+  assert.match(await figure.textContent(), /By the bands 1 of 3 points/);
+  const choice = page.locator("#trade-off label", { hasText: /^Up/ }).locator("select");
+  const other = (await choice.locator("option").allTextContents()).findIndex((name) => /^(Latency|Energy)/.test(name));
+  await choice.selectOption({ index: other });
+  await eventually(async () => assert.doesNotMatch(await figure.textContent(), /By the bands/, "of other figures nothing is known"));
+}));
 
 test("the trade-off is coloured by any figure, and shows what is around the front", () => open("fastSweep", async (page) => {
   const chart = page.locator("#trade-off figure").first();

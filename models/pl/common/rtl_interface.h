@@ -25,7 +25,8 @@ struct RtlParameter {
 // X_INTERFACE_PARAMETER in the source; "interface" is an entry of INTERFACES, of which `port` may
 // be the prefix of several; "unseen" is a clock that lower() lowers; "registered", without a port,
 // says that no input reaches an output but through an edge, and "edge" is an input beside the
-// clocks whose own edges count.
+// clocks whose own edges count; "signals", without a port, is how many bits the signals inside
+// have.
 struct RtlNote {
   const char* what;
   const char* port;

@@ -64,7 +64,7 @@ class Builder {
 
   void add_design(const std::vector<Part>& parts) {
     for (const Part& ip : parts) add_ip(ip);
-    for (const Design::ClockRole& role : zynq_.design().clock_roles()) add_clock_root(role);
+    for (const Design::ClockRole& role : zynq_.design().clock_roles()) add_clock_net(role, parts);
     add_hp_port();
   }
 
@@ -154,9 +154,13 @@ class Builder {
         [written = written_] { return written.bytes(); });
   }
 
-  void add_clock_root(const Design::ClockRole& role) {
+  void add_clock_net(const Design::ClockRole& role, const std::vector<Part>& parts) {
+    double ff = 0;
+    for (const Part& ip : parts) {
+      if (ip.clock == role.clock) ff += ip.estimate.ff;
+    }
     add("pl.clocks." + role.role, role.group, "Vccint", PowerKind::clock, origin("pl.clock_root"),
-        power::clock_root_energy(table_), &states_.pl_clock(*role.clock).hz);
+        power::clock_net_energy(table_, ff), &states_.pl_clock(*role.clock).hz);
   }
 
   void add_ip(const Part& ip) {
@@ -164,10 +168,28 @@ class Builder {
     const Band clock = power::clock_energy(table_, e.ff);
     add(ip.module, ip.group, "Vccint", PowerKind::clock, origin("pl.clock"), clock,
         &states_.pl_clock(*ip.clock).hz);
+    if (by_activity_ && e.foreign.toggles.bits != 0) return add_simulated(ip);
     const std::string coefficient = logic_coefficient(ip);
     add_activity(ip, "Vccint", coefficient, logic(ip, coefficient, clock));
     if (e.dsp != 0) add_activity(ip, "Vccint", "pl.dsp", power::dsp_energy(table_, e.dsp));
     if (e.bram36 > 0) add_block_memory(ip);
+  }
+
+  /// RTL of which nothing but its signals says when it works: by their changes, multipliers and
+  /// memories by the clocks in which there are as many as usual.
+  void add_simulated(const Part& ip) {
+    const vp::IpEstimate& e = ip.estimate;
+    const auto& toggles = e.foreign.toggles;
+    toggles.begin();
+    add(ip.module, ip.group, "Vccint", PowerKind::event, origin("pl.logic_simulated"),
+        power::change_energy(table_, e.lut, e.ff, static_cast<double>(toggles.bits)), nullptr,
+        toggles.changes);
+    if (e.dsp != 0)
+      add(ip.module, ip.group, "Vccint", PowerKind::event, origin("pl.dsp_busy"),
+          power::dsp_energy(table_, e.dsp, "pl.dsp_busy"), nullptr, toggles.busy_clocks);
+    if (e.bram36 > 0)
+      add(ip.module, ip.group, "Vccbram", PowerKind::event, origin("pl.bram"),
+          power::block_memory_energy(table_, e.bram36), nullptr, toggles.busy_clocks);
   }
 
   /// The coefficient of an IP that has one of its own; else that of logic in general.

@@ -5,6 +5,7 @@
 #include <chip/cost/clock_report.h>
 #include <chip/cost/parts.h>
 #include <chip/cost/power_sources.h>
+#include <fpga/power/design_estimate.h>
 
 namespace platform {
 
@@ -184,9 +185,32 @@ facts::PowerReport ZynqPower::power_report(std::uint64_t end_ps) const {
                               entry.joules.nominal / seconds, entry.joules.nominal * mj,
                               entry.source});
   }
+  report.activity = activity(whole);
   report.per_frame = results_ != 0;
   report.energy_per_frame_mj = total.nominal * mj;
   return report;
+}
+
+/// What a ledger has of RTL, taken back to changes and clocks.
+std::vector<facts::PowerReport::Activity> ZynqPower::activity(
+    const vp::EnergyLedger& ledger) const {
+  std::vector<facts::PowerReport::Activity> found;
+  for (const Part& part : parts_) {
+    const vp::IpEstimate& e = part.estimate;
+    const auto bits = static_cast<double>(e.foreign.toggles.bits);
+    double changes = 0, clocks = 0;
+    for (const vp::EnergyEntry& entry : ledger.entries()) {
+      if (bits == 0 || e.lut == 0 || e.ff == 0 || entry.module != part.module) continue;
+      const std::string coefficient = entry.source.substr(0, entry.source.find(' '));
+      if (coefficient == "pl.logic_simulated")
+        changes = entry.joules.nominal / power::change_energy(table_, e.lut, e.ff, bits).nominal;
+      if (coefficient == "pl.clock")
+        clocks = entry.joules.nominal / power::clock_energy(table_, e.ff).nominal;
+    }
+    if (clocks > 0 && options.mode == PowerMode::activity)
+      found.push_back({part.module, changes / (bits * clocks), e.foreign.toggles.bits});
+  }
+  return found;
 }
 
 facts::ResourceReport ZynqPower::resource_report() const {

@@ -85,6 +85,7 @@ class ZynqPower : public sc_core::sc_module, private PowerStates::Observer {
  private:
   void states_changed(std::uint64_t ps) override;
   vp::EnergyLedger with_static(vp::EnergyLedger ledger, double seconds, double& junction_c) const;
+  std::vector<facts::PowerReport::Activity> activity(const vp::EnergyLedger& ledger) const;
   void deliver(facts::UnitReport& frame);
   void record(const vp::EnergyLedger& ledger, const std::vector<vp::Interval>& period,
               double seconds, std::uint64_t from_ps, std::uint64_t to_ps);

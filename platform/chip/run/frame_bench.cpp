@@ -5,7 +5,6 @@
 #include <vp/error.h>
 #include <vp/unit.h>
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -244,12 +243,10 @@ double FrameBench::option(std::uint32_t option, const hal_option_info&) {
 
 // The program gets what its header would have, had it been written for this configuration.
 std::optional<std::uint32_t> FrameBench::xparameter(const char* name) {
-  if (xparameters_.empty()) xparameters_ = xparameters_header(zynq_);
-  const std::string line = "#define XPAR_" + std::string(name) + " ";
-  const std::size_t at = xparameters_.find(line);
-  if (at == std::string::npos) return std::nullopt;
-  return static_cast<std::uint32_t>(
-      std::strtoul(xparameters_.c_str() + at + line.size(), nullptr, 0));
+  if (!xparameters_) xparameters_ = xparameters_values(zynq_);
+  const auto found = xparameters_->find(name);
+  if (found == xparameters_->end()) return std::nullopt;
+  return found->second;
 }
 
 void FrameBench::take_new_warnings(std::vector<std::string>& list) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include <chip/run/camera_timing.h>
 #include <chip/run/software_options.h>
+#include <chip/system/xparameters.h>
 #include <chip/system/zynq.h>
 #include <chip/watch/software_watch.h>
 #include <facts/result.h>
@@ -122,7 +124,7 @@ class FrameBench : public ps::TestBench {
 
   std::size_t warnings_reported_ = 0;
   bool stop_ = false;
-  std::string xparameters_;  ///< the header, once a program asked for a value of it
+  std::shared_ptr<const xparameters::Values> xparameters_;  ///< once a program asked for one
 };
 
 }  // namespace platform

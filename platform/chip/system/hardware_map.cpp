@@ -287,9 +287,7 @@ void add_clocks(HardwareMap& map, ProcessingSystem& ps) {
   add(ps.uart1_ref_clk, "UART_CLK_CTRL", ps.uart1_ref_clk.frequency_hz());
 }
 
-}  // namespace
-
-std::string xparameters_header(Zynq& zynq) {
+xparameters::Platform xparameters_platform(Zynq& zynq) {
   HardwareMap map;
   add_pl_devices(map, zynq);
   add_interrupts(map, zynq);
@@ -315,7 +313,17 @@ std::string xparameters_header(Zynq& zynq) {
   }
   std::stable_sort(platform.devices.begin(), platform.devices.end(),
                    [](const Device& a, const Device& b) { return a.driver < b.driver; });
-  return xparameters::header(platform);
+  return platform;
+}
+
+}  // namespace
+
+std::string xparameters_header(Zynq& zynq) {
+  return xparameters::header(xparameters_platform(zynq));
+}
+
+std::shared_ptr<const xparameters::Values> xparameters_values(Zynq& zynq) {
+  return xparameters::values(xparameters_platform(zynq));
 }
 
 facts::HardwareMap hardware_map(Zynq& zynq) {

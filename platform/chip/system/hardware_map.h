@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ std::string register_text(const facts::HardwareMap& map, std::uint32_t address,
 
 /// The text of xparameters.h for the platform as it is configured: what Vivado would export for it.
 std::string xparameters_header(Zynq& zynq);
+/// What programs ask of it by name.
+std::shared_ptr<const xparameters::Values> xparameters_values(Zynq& zynq);
 
 /// Which registers the program used, and which of their bits, as a page of Markdown: a table a
 /// device, then the registers that it never touched. Reads that a poll passed over count.

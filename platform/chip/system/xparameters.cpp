@@ -264,4 +264,32 @@ std::string header(const Platform& platform) {
   return text + counts.text() + controllers_in_common(platform) + console(platform) + "\n#endif\n";
 }
 
+namespace {
+
+Values values_in(const std::string& text) {
+  const std::string start = "#define XPAR_";
+  Values values;
+  for (std::size_t at = text.find(start); at != text.npos; at = text.find(start, at)) {
+    at += start.size();
+    const std::size_t end = text.find_first_of(" \n", at);
+    if (end == text.npos || text[end] == '\n') continue;  // it has no value
+    const unsigned long value = std::strtoul(text.c_str() + end, nullptr, 0);
+    values.try_emplace(text.substr(at, end - at), static_cast<std::uint32_t>(value));
+  }
+  return values;
+}
+
+}  // namespace
+
+std::shared_ptr<const Values> values(const Platform& platform) {
+  constexpr std::size_t most_kept = 16;
+  thread_local std::vector<std::pair<Platform, std::shared_ptr<const Values>>> kept;
+  for (const auto& [known, found] : kept) {
+    if (known == platform) return found;
+  }
+  if (kept.size() == most_kept) kept.erase(kept.begin());
+  kept.emplace_back(platform, std::make_shared<const Values>(values_in(header(platform))));
+  return kept.back().second;
+}
+
 }  // namespace xparameters

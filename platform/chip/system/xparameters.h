@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <systemc>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -18,6 +21,10 @@ struct FabricInterrupt {
   std::string controller;  ///< its device: "AXI_INTC_0"
   unsigned number;         ///< of its input
 };
+
+inline bool operator==(const FabricInterrupt& a, const FabricInterrupt& b) {
+  return std::tie(a.line, a.controller, a.number) == std::tie(b.line, b.controller, b.number);
+}
 
 /// One device of the PL as its driver sees it.
 struct Device {
@@ -36,6 +43,14 @@ struct Device {
   std::vector<FabricInterrupt> fabric_interrupts = {};
 };
 
+inline bool operator==(const Device& a, const Device& b) {
+  const auto all = [](const Device& d) {
+    return std::tie(d.name, d.driver, d.base, d.last, d.options, d.interrupts, d.sdt_options,
+                    d.compatible, d.fabric_interrupts);
+  };
+  return all(a) == all(b);
+}
+
 struct Platform {
   std::uint64_t cpu_hz;
   std::uint64_t ps_clock_hz;
@@ -47,11 +62,24 @@ struct Platform {
   std::string part = "7z020";   ///< as SDT names the device
 };
 
+inline bool operator==(const Platform& a, const Platform& b) {
+  const auto all = [](const Platform& p) {
+    return std::tie(p.cpu_hz, p.ps_clock_hz, p.ddr_base, p.ddr_last, p.uarts, p.devices, p.part);
+  };
+  return all(a) == all(b);
+}
+
 /// Fills in driver, compatible string and build options of a device of the PL, by its model; none
 /// for one that the vendor has no driver for.
 void add_build(Device& device, const sc_core::sc_object& module);
 
 /// The text of xparameters.h.
 std::string header(const Platform& platform);
+
+/// What its lines give names without their XPAR_; of a name with several lines the first one's.
+using Values = std::unordered_map<std::string, std::uint32_t>;
+/// Those of the header. Points of a sweep ask for the same again and again: they are kept for the
+/// last few platforms of the thread.
+std::shared_ptr<const Values> values(const Platform& platform);
 
 }  // namespace xparameters

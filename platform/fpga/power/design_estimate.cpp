@@ -15,6 +15,8 @@ constexpr double per_thousand = 1e-3;
 constexpr double full_voltage = 1.5, low_voltage = 1.35;
 /// LUT over flip-flops in the reports that calibration/power/refit.py fits.
 constexpr double least_depth = 0.5, most_depth = 4.5;
+/// Oscillators of an MMCM of the slowest speed grade (DS181, DS187: MMCM_FVCOMIN, MMCM_FVCOMAX).
+constexpr double slowest_ghz = 0.6, fastest_ghz = 1.2;
 
 }  // namespace
 
@@ -28,12 +30,18 @@ vp::Band logic_energy(const PowerTable& table, double lut, double ff,
   return table.value(coefficient) * (toggles * lut * per_thousand * nano);
 }
 
+vp::Band change_energy(const PowerTable& table, double lut, double ff, double bits) {
+  return logic_energy(table, lut, ff, "pl.logic_simulated") * (1 / (default_toggle_rate * bits));
+}
+
 vp::Band clock_energy(const PowerTable& table, double ff) {
   return table.value("pl.clock") * (ff * per_thousand * nano);
 }
 
-vp::Band clock_root_energy(const PowerTable& table) {
-  return table.value("pl.clock_root") * nano;
+vp::Band clock_net_energy(const PowerTable& table, double ff) {
+  vp::Band net = table.value("pl.clock_root");
+  net += table.value("pl.clock_branch") * std::sqrt(ff * per_thousand);
+  return net * nano;
 }
 
 vp::Band block_memory_energy(const PowerTable& table, double bram36,
@@ -99,7 +107,7 @@ class Estimator {
   void add_clock(const ClockDomain& c) {
     const double hz = c.mhz * hz_per_mhz;
     const double toggles = c.toggle_rate / default_toggle_rate;
-    vp::Band tree = clock_root_energy(table_);
+    vp::Band tree = clock_net_energy(table_, c.ff);
     tree += clock_energy(table_, c.ff);
     add("pl." + c.name, "Vccint", PowerKind::clock, "pl.clock", tree * hz);
     if (c.lut > 0)
@@ -113,10 +121,17 @@ class Estimator {
           dsp_energy(table_, c.dsp, c.multiplier) * (hz * multiplier_share(c)));
   }
 
-  void add_clock_managers(const std::string& coefficient, const std::vector<double>& ghz) {
-    for (const double oscillator : ghz)
-      add(coefficient, "Vccaux", PowerKind::clock, coefficient,
-          table_.value(coefficient) * oscillator);
+  void add_mmcm(const ClockManager& manager) {
+    vp::Band watts = mmcm(manager);
+    if (!manager.declared) {
+      watts.low = mmcm({slowest_ghz}).low;
+      watts.high = mmcm({fastest_ghz, true}).high;
+    }
+    add("pl.mmcm", "Vccaux", PowerKind::clock, "pl.mmcm", watts);
+  }
+
+  void add_pll(const ClockManager& manager) {
+    add("pl.pll", "Vccaux", PowerKind::clock, "pl.pll", table_.value("pl.pll") * manager.ghz);
   }
 
   void add_pins(const Pins& io) {
@@ -140,6 +155,13 @@ class Estimator {
   }
 
  private:
+  vp::Band mmcm(const ClockManager& manager) const {
+    vp::Band watts = table_.value("pl.mmcm");
+    watts += table_.value("pl.mmcm_oscillator") * manager.ghz;
+    if (manager.fractional) watts += table_.value("pl.mmcm_fractional") * manager.ghz;
+    return watts;
+  }
+
   /// Of the energy of a multiplier at the default toggle rate. In a simulation it cannot be busier
   /// than in every clock.
   static double multiplier_share(const ClockDomain& c) {
@@ -180,8 +202,8 @@ PowerEstimate estimate_power(const DesignFigures& design, const PowerTable& tabl
   Estimator estimator(table);
   if (design.ps) estimator.add_ps(*design.ps);
   for (const ClockDomain& clock : design.clocks) estimator.add_clock(clock);
-  estimator.add_clock_managers("pl.mmcm", design.mmcm_ghz);
-  estimator.add_clock_managers("pl.pll", design.pll_ghz);
+  for (const ClockManager& manager : design.mmcm) estimator.add_mmcm(manager);
+  for (const ClockManager& manager : design.pll) estimator.add_pll(manager);
   estimator.add_pins(design.io);
   return estimator.take(design);
 }

@@ -21,10 +21,13 @@ constexpr double pico = 1e-12;
 /// designs that the coefficient comes from. The coefficients of declared logic have no depth.
 vp::Band logic_energy(const PowerTable& table, double lut, double ff,
                       const std::string& coefficient = "pl.logic");
+/// Of logic whose signals have so many bits, J for each change of one of them.
+vp::Band change_energy(const PowerTable& table, double lut, double ff, double bits);
 /// The clock tree to so many flip-flops, J per clock. So are the next ones.
 vp::Band clock_energy(const PowerTable& table, double ff);
-/// A clock net, loaded or not.
-vp::Band clock_root_energy(const PowerTable& table);
+/// A clock net, loaded or not, and its branches, which reach over an area that grows with the
+/// flip-flops on it.
+vp::Band clock_net_energy(const PowerTable& table, double ff);
 /// Block memories of 36 kbit.
 vp::Band block_memory_energy(const PowerTable& table, double bram36,
                              const std::string& coefficient = "pl.bram");

@@ -47,8 +47,8 @@ class FiguresReader {
     design_.device = device_of(root["device"]);
     read_clocks(root);
     design_.older_tool = is_older(root["tool"]);
-    design_.mmcm_ghz = oscillators(root, "mmcm", least_vco_mhz, most_mmcm_vco_mhz);
-    design_.pll_ghz = oscillators(root, "pll", least_vco_mhz, most_pll_vco_mhz);
+    design_.mmcm = clock_managers(root, "mmcm", most_mmcm_vco_mhz);
+    design_.pll = clock_managers(root, "pll", most_pll_vco_mhz);
     if (root["io"]) read_pins(root["io"]);
     read_ps(root["ps"]);
     design_.thermal.ambient_c =
@@ -146,22 +146,45 @@ class FiguresReader {
     return std::pair(std::stoi(parts[1]), minor) <= last_older_tool;
   }
 
-  /// GHz of each: the number of managers, or the frequency of each one's oscillator.
-  std::vector<double> oscillators(const YAML::Node& root, const char* key, double least,
-                                  double most) const {
+  /// The number of managers, or what is said of each one.
+  std::vector<ClockManager> clock_managers(const YAML::Node& root, const char* key,
+                                           double most_mhz_here) const {
     const YAML::Node node = root[key];
     if (!node || !node.IsSequence()) {
-      return std::vector<double>(static_cast<std::size_t>(whole(root, key, most_managers)), 1.0);
+      return std::vector<ClockManager>(static_cast<std::size_t>(whole(root, key, most_managers)));
     }
     if (node.size() > most_managers) {
       fail(node, "a device has at most " + vp::Decimal(most_managers).text() + " " + key);
     }
-    std::vector<double> ghz;
-    for (const YAML::Node& entry : node) {
-      ghz.push_back(ghz_per_mhz * quantity_of(entry, std::string("oscillator of a ") + key,
-                                              vp::Unit::frequency, least, most));
+    std::vector<ClockManager> managers;
+    for (const YAML::Node& entry : node)
+      managers.push_back(clock_manager(entry, key, most_mhz_here));
+    return managers;
+  }
+
+  /// Its oscillator's frequency, or a map of that and `fractional`, which only an MMCM can be.
+  ClockManager clock_manager(const YAML::Node& node, const std::string& key,
+                             double most_mhz_here) const {
+    ClockManager manager;
+    manager.declared = true;
+    if (node.IsMap()) {
+      only(node, "one of '" + key + "'",
+           key == "mmcm" ? std::vector<std::string>{"oscillator", "fractional"}
+                         : std::vector<std::string>{"oscillator"});
+      if (!node["oscillator"]) fail(node, "'oscillator' of one of '" + key + "' is missing");
+      if (node["fractional"]) manager.fractional = yes_or_no(node["fractional"], "fractional");
     }
-    return ghz;
+    const YAML::Node oscillator = node.IsMap() ? node["oscillator"] : node;
+    manager.ghz = ghz_per_mhz * quantity_of(oscillator, "oscillator of a " + key,
+                                            vp::Unit::frequency, least_vco_mhz, most_mhz_here);
+    return manager;
+  }
+
+  bool yes_or_no(const YAML::Node& node, const std::string& key) const {
+    const std::string text = scalar(node, key);
+    if (text == "yes" || text == "true") return true;
+    if (text == "no" || text == "false") return false;
+    fail(node, "'" + key + "' = '" + vp::excerpt(text) + "' is neither yes nor no");
   }
 
   /// The coefficient of what is declared: that of `family`, such as "pl.bram", with one of `uses`.

@@ -44,6 +44,13 @@ struct Pins {
   std::optional<double> known_w;             ///< of all pins, instead of an estimate
 };
 
+/// An MMCM or a PLL.
+struct ClockManager {
+  double ghz = 1;           ///< of its oscillator
+  bool fractional = false;  ///< multiplies or divides by a number that is not whole: an MMCM can
+  bool declared = false;    ///< otherwise it may be any that the device allows
+};
+
 /// Settings of the processing system.
 struct PsSettings {
   double cpu_mhz = 0;
@@ -57,7 +64,7 @@ struct PsSettings {
 struct DesignFigures {
   device::Device device;
   std::vector<ClockDomain> clocks;
-  std::vector<double> mmcm_ghz, pll_ghz;  ///< of the oscillator of each clock manager
+  std::vector<ClockManager> mmcm, pll;
   Pins io;
   std::optional<PsSettings> ps;
   bool older_tool = false;  ///< estimate as Vivado up to 2017.2 does
@@ -73,7 +80,7 @@ struct DesignFigures {
 ///             activity: control, bram_activity: buffer, dsp_activity: rest}
 ///     cipher: {frequency: 100 MHz, lut: 2000, ff: 1500,
 ///              trace: {file: run.vcd, below: top.cipher, clock: top.clk}}
-///   mmcm: 1
+///   mmcm: [1000 MHz, {oscillator: 850 MHz, fractional: yes}]
 ///   pll: [1000 MHz]
 ///   io: {pins: 36, frequency: 25 MHz, toggle_rate: 12.5 %, tmds_pairs: 4}
 ///   ps: {cpu_clock: 666.67 MHz, load: 50 %, cores: 2, hp_clock: 100 MHz,
@@ -83,11 +90,11 @@ struct DesignFigures {
 ///
 /// Of a clock `frequency`, `lut` and `ff` must be there, of pins `pins` and `frequency`; the PS
 /// takes the vendor's defaults for what is not written, and `ps: none` leaves it out. `mmcm` and
-/// `pll` are a number, or a list of the frequencies of their oscillators. `power` in `io` or `ps`
-/// takes the place of all else there. A `trace`, which is sought beside the file, gives the toggle
-/// rate of its clock's logic; its `clock` is a signal of it, or a frequency. Throws vp::InputError
-/// with file, line and the nearest that works for anything unknown, missing, negative or beyond the
-/// device.
+/// `pll` are a number, or a list of the frequencies of their oscillators; of an MMCM also whether
+/// it multiplies or divides by a number that is not whole. `power` in `io` or `ps` takes the place
+/// of all else there. A `trace`, which is sought beside the file, gives the toggle rate of its
+/// clock's logic; its `clock` is a signal of it, or a frequency. Throws vp::InputError with file,
+/// line and the nearest that works for anything unknown, missing, negative or beyond the device.
 DesignFigures read_design_figures(const std::string& file);
 
 }  // namespace platform::power

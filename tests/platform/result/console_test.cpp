@@ -175,6 +175,19 @@ BOOST_AUTO_TEST_CASE(timing_is_met_missed_or_unknown) {
   BOOST_TEST(contains(text(), "timing   met, 6 % to spare (b, perhaps 92 %)\n"), text());
 }
 
+BOOST_AUTO_TEST_CASE(the_busiest_rtl_comes_first_on_a_line_that_fits) {
+  facts::PowerReport power;
+  power.activity = {{"pl.filter", 0.003, 100}, {"pl.cipher", 0.412, 200}};
+  const auto text = [&] { return result::design_text(power, {}, {}); };
+  BOOST_TEST(contains(text(), "activity pl.cipher 0.412, pl.filter 0.003   changes a bit"), text());
+  for (int i = 0; i < 30; ++i) power.activity.push_back({"pl.part_" + std::to_string(i), 0.1, 10});
+  check_width(text());
+  BOOST_TEST(contains(text(), "activity pl.cipher 0.412, pl.part_0 0.100"), text());
+  BOOST_TEST(contains(text(), "others   changes a bit"), text());
+  power.activity.clear();
+  BOOST_TEST(!contains(text(), "activity"), text());
+}
+
 BOOST_AUTO_TEST_CASE(the_verdict_says_how_far_or_why_not) {
   facts::Summary summary;
   summary.add(found_frame("z1.0"));

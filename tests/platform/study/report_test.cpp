@@ -137,6 +137,30 @@ BOOST_AUTO_TEST_CASE(the_page_has_what_the_console_says) {
     "metrics":[null,null],"failed":true,"reasons":["failed: it stood"],"front":0})"));
 }
 
+BOOST_AUTO_TEST_CASE(the_page_has_what_the_bands_leave_of_the_front) {
+  Results results = example();
+  results.rows.resize(2);
+  results.constraints.clear();
+  const auto banded = [](double fps, double watts) {
+    return judged(1, {{"summary.fps.mean", fps},
+                      {"power.total_w.low", watts - 0.1},
+                      {"power.total_w.nominal", watts},
+                      {"power.total_w.high", watts + 0.1}});
+  };
+  const auto dominated = [&](double fps, double watts) {
+    results.rows[0].metrics = banded(90, 2);
+    results.rows[1].metrics = banded(fps, watts);
+    const Json block = Json::parse(page_block(results, "x"));
+    BOOST_TEST(block["doubt"].get<std::string>().find("By the bands of the figures") == 0u);
+    return block["points"][0]["dominated"].get<std::string>() + " " +
+           block["points"][1]["dominated"].get<std::string>();
+  };
+  BOOST_TEST(dominated(80, 1.5) == "no no");
+  BOOST_TEST(dominated(80, 1.95) == "no unknown");
+  BOOST_TEST(dominated(80, 2.5) == "no yes");
+  BOOST_TEST(!Json::parse(page_block(example(), "x")).contains("doubt"));  // no bands
+}
+
 BOOST_AUTO_TEST_CASE(a_page_of_very_many_points_has_the_front_and_some_of_the_others) {
   Results results = example();
   const ResultRow usual = results.rows[1];

@@ -95,6 +95,26 @@ BOOST_AUTO_TEST_CASE(numbers_follow_the_order) {
   }
 }
 
+// Programs ask by name: what is kept from platform to platform is what the header says of each.
+BOOST_AUTO_TEST_CASE(names_have_the_values_of_the_header) {
+  xparameters::Platform platform{666'666'687, 33'333'333, 0x0010'0000, 0x1FFF'FFFF, {}, {}};
+  platform.devices = {{"LEDS", "GPIO", 0x4000'0000, 0x4000'FFFF, {{"IS_DUAL", 1}}, {}}};
+  const auto first = xparameters::values(platform);
+  BOOST_TEST(first->at("LEDS_BASEADDR") == 0x4000'0000u);
+  BOOST_TEST(first->at("GPIO_0_IS_DUAL") == 1u);
+  BOOST_TEST(first->at("CPU_CORTEXA9_CORE_CLOCK_FREQ_HZ") == 666'666'687u);
+  BOOST_TEST(first->count("LEDS_NONE") == 0u);
+  BOOST_TEST(xparameters::values(platform) == first);
+  for (std::uint32_t base = 0x4100'0000; base < 0x4120'0000; base += 0x1'0000) {  // more than kept
+    platform.devices[0].base = base;
+    BOOST_TEST(xparameters::values(platform)->at("LEDS_BASEADDR") == base);
+  }
+  platform.devices[0].options[0].second = 0;
+  BOOST_TEST(xparameters::values(platform)->at("GPIO_0_IS_DUAL") == 0u);
+  platform.cpu_hz = 1;
+  BOOST_TEST(xparameters::values(platform)->at("CPU_CORTEXA9_CORE_CLOCK_FREQ_HZ") == 1u);
+}
+
 // The names that nine of ten headers of real projects have, and those of SDT, each with its value.
 BOOST_AUTO_TEST_CASE(names_of_the_processing_system) {
   const xparameters::Platform platform{666'666'687, 33'333'333,         0x0010'0000,

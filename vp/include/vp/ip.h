@@ -117,6 +117,15 @@ struct IpEstimate {
     std::string figures;               ///< of its synthesis, as the user names the file
     std::vector<std::string> sources;  ///< SHA-256 of each file that it is built from
     std::map<std::string, std::uint64_t> parameters;  ///< with which it is built
+
+    /// What its signals do, where nothing else knows when it works.
+    struct Toggles {
+      std::uint64_t bits = 0;               ///< of its signals; 0: they are not counted
+      std::function<void()> begin;          ///< nothing is counted before
+      std::function<double()> changes;      ///< of all bits, since then
+      std::function<double()> busy_clocks;  ///< in which they changed at the vendor's default rate
+    };
+    Toggles toggles;
   };
   Foreign foreign;
   /// Resources and Fmax are; if not, `source` says why.

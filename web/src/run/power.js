@@ -42,6 +42,15 @@ function rails(power) {
     { title: "Rail", head: true, value: (r) => r[0] }, { title: "Power", unit: "W", csv: "Power W", number: true, value: (r) => r[1], show: (v) => significant(v, 3) }] }));
 }
 
+function activities(power) {
+  const rows = power.activity ?? [];
+  if (rows.length === 0) return null;
+  return h("details", {}, h("summary", {}, "Activity inside RTL"), dataTable({ caption: "Activity inside RTL, of which 0.125 is usual", name: "activity", rows, exportable: true, columns: [
+    { title: "Module", head: true, value: (r) => r.name, show: words },
+    { title: "Changes a bit and clock", csv: "Changes a bit and clock", number: true, value: (r) => r.toggle_rate, show: (v) => significant(v, 3) },
+    { title: "Bits of signals", csv: "Bits of signals", number: true, value: (r) => r.signal_bits }] }));
+}
+
 export function power(run) {
   const facts = run.result.power;
   if (!facts?.modules?.length) return null;
@@ -49,5 +58,5 @@ export function power(run) {
   return h("section", { id: "power", "aria-labelledby": "power-title" }, h("h2", { id: "power-title" }, "Power and energy"),
     about && h("p", { class: "note", style: { marginBottom: "20px" } }, about[0].toUpperCase() + about.slice(1) + "."),
     h("div", { class: "stack" }, application.energy(run), moduleChart(run),
-      h("div", {}, h("details", {}, h("summary", {}, "Modules with the origin of their numbers"), dataTable({ caption: "Power by module", name: "power", exportable: true, rows: facts.modules, columns: columns() })), rails(facts))));
+      h("div", {}, h("details", {}, h("summary", {}, "Modules with the origin of their numbers"), dataTable({ caption: "Power by module", name: "power", exportable: true, rows: facts.modules, columns: columns() })), activities(facts), rails(facts))));
 }

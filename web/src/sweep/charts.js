@@ -10,9 +10,12 @@ const ramp = () => { const c = palette(); return isDark() ? ["#22303c", c.blue, 
 const onRamp = (share) => { const c = palette(); return share > (isDark() ? 0.4 : 0.7) ? c.page : c.ink; };
 export const value = (ax, point) => (Number.isFinite(ax.of(point)) ? tidy(ax.of(point)) + (ax.unit ? " " + ax.unit : "") : "–");
 
+/** What the error bands of its figures leave of a point's place. */
+const certainty = { no: "No other point can beat it, by the bands", unknown: "Another point beats it perhaps, by the bands", yes: "Another point beats it for sure" };
+
 export function describe(sweep, point, selection) {
   return [...sweep.parameters.map((p) => `${p.name} ${p.text(point)}`),
-    ...sweep.metrics.slice(0, 6).map((m) => `${m.name} ${value(m, point)}`), ...selection.why(point)].join("\n");
+    ...sweep.metrics.slice(0, 6).map((m) => `${m.name} ${value(m, point)}`), ...selection.why(point), ...(point.dominated ? [certainty[point.dominated]] : [])].join("\n");
 }
 
 export function opener(open, pick) {

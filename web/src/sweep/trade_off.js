@@ -20,7 +20,7 @@ function roundStep(range, parts) {
 function scaleOf(values) {
   const [least, most] = [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
   const range = most - least || Math.abs(least) * 0.1 || 0.1;
-  const tick = roundStep(range * 1.16, 6);
+  const tick = roundStep(range * 1.16, 8);
   const lowest = Math.floor((least - range * 0.08) / tick) * tick;
   // No room below 0 for what is never negative: a rate, a power.
   return { min: least >= 0 ? Math.max(0, lowest) : lowest, max: Math.ceil((most + range * 0.08) / tick) * tick, tick };
@@ -159,7 +159,9 @@ function figureOf(sweep, selection, shown, view, frontIn, open) {
     const front = frontOf(good.filter((p) => !p.same_as), frontIn()).sort((a, b) => x.axis.of(a) - x.axis.of(b) || y.axis.of(a) - y.axis.of(b));
     const onFront = new Set(front);
     const behind = good.filter((p) => !onFront.has(p));
-    parts = { outside, bad, good: behind, front, groups: groups.map((g) => behind.filter(g.has)) };
+    // The bands were asked of the study's own objectives and limits.
+    const judged = sweep.doubt && selection.asAsked() && frontIn().length === sweep.objectives.length && frontIn().every((each) => sweep.objectives.some(({ id, better }) => id === each.id && better === each.better));
+    parts = { outside, bad, good: behind, front, sure: front.filter((p) => !judged || p.dominated === "no"), unsure: front.filter((p) => judged && p.dominated !== "no"), judged, groups: groups.map((g) => behind.filter(g.has)) };
     const seen = view.near && front.length > 0 ? front : known;
     scales = { x: scaleOf(seen.map(x.axis.of)), y: scaleOf(seen.map(y.axis.of)) };
     lines = isoLines(shown, seen, scales);
@@ -173,8 +175,11 @@ function figureOf(sweep, selection, shown, view, frontIn, open) {
       ...(groups.length === 0 ? [{ name: "Feasible", points: parts.good, symbol: "circle", size: 6, style: { color: c.blue, opacity: 0.55 } }]
         : groups.map((g, i) => ({ name: g.name, points: parts.groups[i], symbol: "circle", size: 6, style: { color: g.colour(), opacity: 0.75 } }))),
       faulty && { name: "Not feasible or not proven", points: parts.bad, symbol: "triangle", size: 7, style: { color: c.vermilion, opacity: 0.6 } },
-      { name: "Pareto front", points: parts.front, symbol: "diamond", size: 10, style: groups.length === 0 ? { color: c.green }
-        : { color: ({ dataIndex }) => groups.find((g) => g.has(parts.front[dataIndex]))?.colour() ?? c.green, borderColor: c.green, borderWidth: 2 } },
+      ...[[parts.judged ? "Pareto front, for sure" : "Pareto front", parts.sure, false], ["Pareto front, perhaps", parts.unsure, true]].map(([name, points, perhaps]) => {
+        const colour = ({ dataIndex }) => groups.find((g) => g.has(points[dataIndex]))?.colour() ?? c.green;
+        if (perhaps) return { name, points, onFront: true, symbol: "diamond", size: 9, style: { color: groups.length ? colour : c.page, borderColor: c.green, borderWidth: 1.5 } };
+        return { name, points, onFront: true, symbol: "diamond", size: 10, style: groups.length ? { color: colour, borderColor: c.green, borderWidth: 2 } : { color: c.green } };
+      }).filter(({ name, points }) => points.length > 0 || name === "Pareto front"),
     ].filter(Boolean);
   };
   // A list of lists takes ECharts three times as long.
@@ -184,8 +189,8 @@ function figureOf(sweep, selection, shown, view, frontIn, open) {
     return flat;
   };
   const scatter = (g) => ({
-    type: "scatter", name: g.name, symbol: g.symbol, symbolSize: large && g.points !== parts.front ? 3 : g.size, itemStyle: g.style, large: large && g.points !== parts.front, largeThreshold: 0, progressive: 0,
-    dimensions: ["x", "y"], data: pairs(g.points), z: g.points === parts.front ? 4 : 2,
+    type: "scatter", name: g.name, symbol: g.symbol, symbolSize: large && !g.onFront ? 3 : g.size, itemStyle: g.style, large: large && !g.onFront, largeThreshold: 0, progressive: 0,
+    dimensions: ["x", "y"], data: pairs(g.points), z: g.onFront ? 4 : 2,
   });
   const pointAt = ({ seriesName, dataIndex }) => looks().find((g) => g.name === seriesName)?.points[dataIndex];
   const limitLines = (c) => ["x", "y"].flatMap((dim) => selection.range(shown[dim].of).filter((bound) => bound > scales[dim].min && bound < scales[dim].max).map((bound) => ({
@@ -196,7 +201,7 @@ function figureOf(sweep, selection, shown, view, frontIn, open) {
   const click = opener(open, pointAt);
   const figure = chart({
     name: "trade-off", title: `${x.axis.name} and ${y.axis.name.toLowerCase()}`, height: 440, canvas: true, overlay: overlay.layer,
-    note: `No feasible point within the limits beats one of the front in ${frontIn().length > 2 ? "all that the study asks for" : both}. Drag a limit by its grip at the edge, or a rectangle around points.${lines.length ? " Grey lines: equal energy a frame." : ""}${reasons.length ? " Triangles: not feasible, or not proven (" + reasons.slice(0, 2).join("; ") + (reasons.length > 2 ? "; …" : "") + ")." : ""}${failed ? ` ${counted(failed, "point")} that failed ${failed === 1 ? "is" : "are"} left out here; the table and the map say why.` : ""} A click opens a point.`,
+    note: `No feasible point within the limits beats one of the front in ${frontIn().length > 2 ? "all that the study asks for" : both}. ${parts.judged ? `${sweep.doubt}. ` : ""}Drag a limit by its grip at the edge, or a rectangle around points.${lines.length ? " Grey lines: equal energy a frame." : ""}${reasons.length ? " Triangles: not feasible, or not proven (" + reasons.slice(0, 2).join("; ") + (reasons.length > 2 ? "; …" : "") + ")." : ""}${failed ? ` ${counted(failed, "point")} that failed ${failed === 1 ? "is" : "are"} left out here; the table and the map say why.` : ""} A click opens a point.`,
     summary: () => `${counted(known.length, "point")}, ${fixed(parts.bad.length, 0)} of them not feasible or not proven, ${fixed(parts.outside.length, 0)} outside the limits. The front has ${counted(parts.front.length, "point")}` +
       (parts.front.length ? `, from ${value(x.axis, parts.front[0])} at ${value(y.axis, parts.front[0])} to ${value(x.axis, parts.front.at(-1))} at ${value(y.axis, parts.front.at(-1))}.` : "."),
     option: () => {

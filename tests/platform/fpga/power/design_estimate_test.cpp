@@ -125,9 +125,22 @@ BOOST_AUTO_TEST_CASE(an_oscillator_takes_power_by_its_frequency) {
   const auto managers = [](const std::string& text) {
     return estimate_power(read("ps: none\n" + text), table()).ledger.by_group();
   };
-  const double one = managers("mmcm: 1\n").at("MMCM").nominal;
-  BOOST_TEST(managers("mmcm: [1000 MHz, 800 MHz]\n").at("MMCM").nominal == 1.8 * one,
-             boost::test_tools::tolerance(1e-9));
+  const auto mmcm = [&](const std::string& list) {
+    return managers("mmcm: [" + list + "]\n").at("MMCM");
+  };
+  const vp::Band unknown = managers("mmcm: 1\n").at("MMCM");
+  BOOST_TEST(unknown.nominal == mmcm("1000 MHz").nominal);
+  BOOST_TEST(unknown.low == mmcm("600 MHz").low);
+  BOOST_TEST(unknown.high == mmcm("{oscillator: 1200 MHz, fractional: yes}").high);
+  const auto tolerance = boost::test_tools::tolerance(1e-9);
+  const double base = table().value("pl.mmcm").nominal,
+               ghz = table().value("pl.mmcm_oscillator").nominal,
+               fractional = table().value("pl.mmcm_fractional").nominal;
+  BOOST_TEST(mmcm("1000 MHz, 800 MHz").nominal == 2 * base + 1.8 * ghz, tolerance);
+  BOOST_TEST(
+      mmcm("{oscillator: 800 MHz, fractional: yes}").nominal == base + 0.8 * (ghz + fractional),
+      tolerance);
+  BOOST_TEST(mmcm("{oscillator: 800 MHz, fractional: no}").nominal == mmcm("800 MHz").nominal);
   BOOST_TEST(managers("pll: [1000 MHz]\n").at("PLL").nominal ==
              managers("pll: 1\n").at("PLL").nominal);
 }
@@ -209,6 +222,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_told_with_the_nearest_that_can) {
   told("mmcm: 9\n", "is 8");
   told("mmcm: [2 GHz]\n", "is 1.6 GHz");
   told("pll: [100 MHz]\n", "is 600 MHz");
+  told("pll: [{oscillator: 1 GHz, fractional: yes}]\n", "has no 'fractional'");
+  told("mmcm: [{fractional: yes}]\n", "'oscillator' of one of 'mmcm' is missing");
+  told("mmcm: [{oscillator: 1 GHz, fractional: maybe}]\n", "neither yes nor no");
   told("pll: {a: 1}\n", "not one value");
   told("tool: old\n", "no version of Vivado");
   told("ps: {power: 1 W, load: 50 %}\n", "'power' takes the place of 'load'");
