@@ -1,4 +1,5 @@
 #include <chip/block_design/import_design.h>
+#include <chip/block_design/import_levels.h>
 
 #include <slcr_registers.h>
 
@@ -60,7 +61,7 @@ bool is_memory_mapped(const BusInterface& bus) {
 }
 
 bool is_bus(const BusInterface& bus) {
-  return is_memory_mapped(bus) || bus.kind == "axis";
+  return is_memory_mapped(bus) || bus.kind == "axis" || bus.kind == "apb";
 }
 
 /// Parameters that say nothing of what an IP of the owner's does.
@@ -71,22 +72,6 @@ bool is_noise(const std::string& name) {
     return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
   };
   return names.count(name) != 0 || ends_with("_BASEADDR") || ends_with("_HIGHADDR");
-}
-
-/// The frequencies of clocks, by net, where their drivers may say nothing: what those that they
-/// drive are said to have, or what a clock wizard behind them was made for.
-std::map<std::string, double> clock_wishes(const Handoff& handoff) {
-  std::map<std::string, double> wishes;
-  for (const Module& module : handoff.modules) {
-    for (const Port& port : module.ports) {
-      if (port.direction != 'I' || port.signal.empty()) continue;
-      if (port.kind == "clk" && port.hz) wishes.emplace(port.signal, *port.hz);
-      if (module.ip() != "clk_wiz" || port.name != "clk_in1") continue;
-      const auto mhz = vp::Decimal::parse(parameter(module.parameters, "PRIM_IN_FREQ"));
-      if (mhz) wishes.emplace(port.signal, mhz->to_double() * hz_per_mhz);
-    }
-  }
-  return wishes;
 }
 
 /// Writes the sections of design.yaml one after the other.
@@ -242,7 +227,7 @@ class Writer {
     result_.parts.push_back(std::move(part));
   }
 
-  void look_for_rtl(const Module& module, ImportedPart& part) const {
+  void look_for_rtl(const Module& module, ImportedPart& part) {
     if (rtl_.empty()) {
       part.why =
           module.is_vendors() ? "the platform has no model of it" : "no RTL was named for it";
@@ -251,7 +236,28 @@ class Writer {
     part.rtl = rtl_.find(module);
     part.why = part.rtl.why;
     if (part.rtl.files.empty()) return;
+    for (const BusInterface& bus : module.interfaces) {
+      if (bus.kind != "apb" || bus.bus.empty()) continue;
+      part.why = "its bus " + bus.name + " is APB, which RTL cannot have here";
+      part.rtl.files.clear();
+      return;
+    }
     part.kind = Kind::rtl;
+    for (const Port& port : module.ports) note_reset(module, port, part.rtl);
+  }
+
+  /// RTL that does not say at which level a pin resets is built for what drives the pin.
+  void note_reset(const Module& module, const Port& port, handoff::RtlSources& rtl) {
+    if (!leaves_level_open(port, rtl.files)) return;
+    const auto source = nets_.driver(port);
+    const std::optional<bool> low = source ? resets_low(nets_, *source) : std::nullopt;
+    rtl.interfaces.push_back(port.name + (!low ? ": wire" : *low ? ": reset low" : ": reset high"));
+    if (low) return;
+    result_.notes.push_back("`" + module.instance + "." + port.name +
+                            "` does not say at which level it resets, and neither does what drives "
+                            "it: CMakeLists.txt takes it for a wire, which changes nothing but "
+                            "checks; \"" +
+                            port.name + ": reset high\" there names the level");
   }
 
   /// Why the model cannot be built as the design wants it; "" if it can.
@@ -457,7 +463,11 @@ class Writer {
       } else {
         const std::string width =
             port.width > 1 ? "width: " + std::to_string(port.width) + ", " : "";
-        lines.push_back("  " + yaml(port.name) + ": {" + width + "level: 0}");
+        const bool high = idles_high(handoff_, port);
+        lines.push_back("  " + yaml(port.name) + ": {" + width + "level: " + (high ? "1}" : "0}"));
+        if (high)
+          result_.notes.push_back("pin " + port.name +
+                                  " resets at 0, and is at 1: nothing is in reset");
       }
     }
     if (lines.empty()) return;

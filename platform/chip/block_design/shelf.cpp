@@ -279,6 +279,8 @@ std::vector<IpRule> rules() {
        "AXI Interconnect (PG059): a way for addresses, with `read_latency` and `write_latency`"},
       {"smartconnect", Kind::bus,
        "SmartConnect (PG247): a way for addresses, with `read_latency` and `write_latency`"},
+      {"axi_apb_bridge", Kind::bus,
+       "AXI to APB bridge (PG073): a way for addresses, with `read_latency` and `write_latency`"},
       {"axi_protocol_converter", Kind::bus,
        "AXI protocol converter (PG059): a way for addresses, with `read_latency` and "
        "`write_latency`"},
