@@ -44,6 +44,16 @@ AxiBramCtrl::AxiBramCtrl(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
   show(memory_.data(), 0, memory_.size());
 }
 
+void AxiBramCtrl::extend(std::size_t bytes) {
+  if (bytes > memory_.size()) memory_.resize(bytes);
+  show(memory_.data(), 0, memory_size);
+}
+
+void AxiBramCtrl::share(AxiBramCtrl& other) {
+  other.extend(memory_size);
+  show(other.memory_.data(), 0, memory_size);
+}
+
 void AxiBramCtrl::before_end_of_elaboration() {
   if (s_axi_aresetn.bound()) s_axi_aresetn.signal()->attach(*this);
 }

@@ -49,6 +49,11 @@ class AxiBramCtrl : public vp::MemoryTarget, public vp::SignalListener {
 
   /// The bytes, for loading and for tests. A reset of the controller leaves them alone.
   std::vector<unsigned char>& contents() { return memory_; }
+  /// The memory has this many bytes at least, of which software reaches `memory_size`; before the
+  /// simulation.
+  void extend(std::size_t bytes);
+  /// The memory is that of another controller, at another port of it; before the simulation.
+  void share(AxiBramCtrl& other);
 
  private:
   void before_end_of_elaboration() override;

@@ -6,6 +6,7 @@
 #include <vp/report.h>
 #include <vp/text.h>
 #include <xilinx/axi_uartlite/axi_uartlite.h>
+#include <xilinx/blk_mem_gen/blk_mem_gen.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
 
@@ -50,6 +51,7 @@ void BlockDesign::build() {
   place_all();
   for (const PlacedPart& part : design_.parts) join_pins(part);
   join_serial_lines();
+  join_memories();
   join_streams();
   join_addresses();
   close_open_streams();
@@ -146,11 +148,14 @@ Placed& BlockDesign::placed(const std::string& name) {
   if (std::find(being_placed_.begin(), being_placed_.end(), name) != being_placed_.end())
     throw vp::InputError(part.place + ": the clock of " + name + " is made from itself");
   being_placed_.push_back(name);
-  const Placement placement{part, ports_, design_,
+  const Placement placement{part,
+                            ports_,
+                            design_,
                             [this, &part](const std::string& pin) -> vp::Clock* {
                               const auto source = part.pins.find(pin);
                               return source == part.pins.end() ? nullptr : clock_of(source->second);
                             },
+                            [this](const End& source) { return clock_of(source); },
                             adapters_};
   Placed made = name == ps_ ? place_processing_system(part) : place_part(placement);
   being_placed_.pop_back();
@@ -209,6 +214,8 @@ vp::Clock* BlockDesign::clock_of(const End& source) {
   // Known before it is placed: stubs and RTL may drive each other in a ring.
   const bool drives_wires = part.is_stub() || !part.rtl.empty();
   if (drives_wires && part.clocks.count(source.port) == 0) return nullptr;
+  // Block memory has the clock of the logic at its ports, which it drives.
+  if (!drives_wires && part.rule() && part.rule()->ip == "blk_mem_gen") return nullptr;
   Placed& driver = placed(source.part);
   const auto found = driver.clocks.find(source.port);
   return found == driver.clocks.end() ? nullptr : found->second;
@@ -277,6 +284,16 @@ void BlockDesign::join_serial_lines() {
              "and " + part.name + ".rx have other baud rates or formats: give both the same");
     }
     sender.connect(*receiver);
+  }
+}
+
+// A port of a memory at a controller is what software sees of it.
+void BlockDesign::join_memories() {
+  for (const PlacedPart& part : design_.parts) {
+    xilinx::BlkMemGen* memory = placed(part.name).memory;
+    if (!memory) continue;
+    for (const PlacedPart* controller : controllers_of(design_, part))
+      memory->share(*placed(controller->name).controller);
   }
 }
 

@@ -1,4 +1,5 @@
 #include <chip/block_design/import_design.h>
+#include <chip/block_design/import_fit.h>
 #include <chip/block_design/import_levels.h>
 
 #include <slcr_registers.h>
@@ -211,15 +212,14 @@ class Writer {
     if (is_own) look_for_rtl(module, part);
     if (part.kind == Kind::rtl) rule = nullptr;
     if (rule) {
-      part.why = misfit(*rule, module);
-      if (part.why.empty()) part.why = driven_board_input(*rule, module);
+      part.why = misfit(*rule, module, nets_, rtl_);
       part.kind = part.why.empty() ? rule->kind : Kind::stub;
     }
     line("  " + module.instance + ":");
     line("    ip: " + yaml(module.vlnv));
     if (rule && part.kind == Kind::stub) line("    as: stub  # " + part.why);
     if (part.kind == Kind::rtl) line("    rtl: build/" + part.target + ".so");
-    write_parameters(module, part.kind == Kind::stub ? nullptr : rule);
+    write_parameters(with_file(module, part.kind), part.kind == Kind::stub ? nullptr : rule);
     if (part.kind == Kind::stub) write_clocks(module);
     if (part.kind == Kind::model) note_files(module);
     write_pins(module, part.kind == Kind::stub);
@@ -260,29 +260,12 @@ class Writer {
                             port.name + ": reset high\" there names the level");
   }
 
-  /// Why the model cannot be built as the design wants it; "" if it can.
-  static std::string misfit(const IpRule& rule, const Module& module) {
-    for (const ParameterRule& known : rule.parameters) {
-      const std::string value = parameter(module.parameters, known.name);
-      if (!value.empty() && !is_allowed(known, value)) {
-        return known.name + " = " + value + " is not modelled, but " + allowed_values(known);
-      }
-    }
-    return {};
-  }
-
-  /// Why the model cannot take what drives its pins; "" if it can.
-  std::string driven_board_input(const IpRule& rule, const Module& module) const {
-    for (const std::string& pin : board_inputs(rule.ip)) {
-      const Port* port = module.port(pin);
-      const auto source = port ? nets_.driver(*port) : std::nullopt;
-      if (!source || !source->module ||
-          may_drive_board_input(rule.ip, source->module->vlnv, source->port->name))
-        continue;
-      return "its pin " + pin + " is driven by " + source->module->instance + "." +
-             source->port->name + ", and the model takes devices of the board only";
-    }
-    return {};
+  /// A memory that is loaded from a file, with the file that was found.
+  Module with_file(const Module& module, Kind kind) const {
+    Module found = module;
+    if (kind == Kind::model && loads_memory(module))
+      found.parameters["Coe_File"] = rtl_.data_file(parameter(module.parameters, "Coe_File"));
+    return found;
   }
 
   /// Of the shelf's IP those that matter and are not as usual; of the owner's all.
@@ -333,7 +316,8 @@ class Writer {
   void write_pins(const Module& module, bool is_stub) {
     std::set<std::string> of_buses;
     for (const BusInterface& bus : module.interfaces) {
-      if (!is_bus(bus) && bus.kind != "ddrx" && bus.kind != "bram") continue;
+      const bool is_memory = bus.kind == "bram" && module.ip() == "axi_bram_ctrl";
+      if (!is_bus(bus) && bus.kind != "ddrx" && !is_memory) continue;
       for (const auto& [logical, physical] : bus.pins) of_buses.insert(physical);
     }
     const IpRule* rule = rule_for(module.vlnv);
@@ -345,7 +329,7 @@ class Writer {
       const auto source = nets_.driver(port);
       if (!source) continue;
       const std::string text = pin_text(*source);
-      if (!is_stub) note_missing(*source);
+      if (!is_stub) note_missing(module, *source);
       if (is_interconnect) {
         if (port.kind != "clk") continue;
         if (main_clock.empty()) {
@@ -360,10 +344,11 @@ class Writer {
     }
   }
 
-  void note_missing(const handoff::Pin& source) {
+  void note_missing(const Module& module, const handoff::Pin& source) {
     const IpRule* rule = source.module ? rule_for(source.module->vlnv) : nullptr;
     if (!rule || !lacks_output(*rule, source.port->name)) return;
-    if (!misfit(*rule, *source.module).empty()) return;  // a stub has any
+    if (rule->ip == "axi_bram_ctrl" && module.ip() == "blk_mem_gen") return;  // they are one
+    if (!misfit(*rule, *source.module, nets_, rtl_).empty()) return;          // a stub has any
     const std::string text = pin_text(source);
     if (!missing_.insert(text).second) return;
     result_.notes.push_back("`" + text + "` is not modelled: it stays " +

@@ -4,7 +4,6 @@
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/axi_interconnect/axi_interconnect.h>
@@ -205,27 +204,6 @@ Placed place_dma(const Placement& at) {
   return placed;
 }
 
-/// Its memory is as large as the segment in which it is seen.
-Placed place_bram_ctrl(const Placement& at) {
-  xilinx::AxiBramCtrlBuild build;
-  build.axi4_lite = at.text("C_S_AXI_PROTOCOL") == "AXI4LITE";
-  build.single_port = at.flag("C_SINGLE_PORT_BRAM");
-  for (const AddressSegment& segment : at.design.addresses) {
-    if (segment.slave.part == at.part.name)
-      build.memory_size =
-          static_cast<std::uint32_t>(std::min<std::uint64_t>(segment.size, 1u << 30));
-  }
-  auto memory =
-      std::make_unique<xilinx::AxiBramCtrl>(at.part.name.c_str(), at.clock({"s_axi_aclk"}), build);
-  Placed placed;
-  xilinx::AxiBramCtrl* target = memory.get();
-  placed.slaves = {{"S_AXI", {[target](RegionSocket& socket) { socket.bind(target->s_axi); }}}};
-  placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", memory->s_axi_aresetn)}};
-  placed.unused_inputs = {"bram_rddata_a", "bram_rddata_b"};  // of the memory, which is part of it
-  placed.object = std::move(memory);
-  return placed;
-}
-
 Placed place_reset(const Placement& at) {
   auto reset =
       std::make_unique<xilinx::ProcSysReset>(at.part.name.c_str(), at.clock({"slowest_sync_clk"}));
@@ -375,6 +353,7 @@ Placed place_part(const Placement& at) {
   if (rule->ip == "axi_gpio") return place_gpio(at);
   if (rule->ip == "axi_dma") return place_dma(at);
   if (rule->ip == "axi_bram_ctrl") return place_bram_ctrl(at);
+  if (rule->ip == "blk_mem_gen") return place_block_memory(at);
   if (rule->ip == "proc_sys_reset") return place_reset(at);
   if (const Placer placer = stream_placer(at)) return placer(at);
   if (rule->ip.rfind("axis_", 0) == 0) return place_stream_buffer(at, rule->ip);

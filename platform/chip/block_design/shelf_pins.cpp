@@ -49,6 +49,7 @@ const std::map<std::string, Names>& outputs_without_model() {
         "mm2s_prmtr_update", "s2mm_prmtr_update", "mm2s_buffer_empty", "mm2s_buffer_almost_empty",
         "s2mm_buffer_full", "s2mm_buffer_almost_full", "mm2s_prmry_reset_out_n",
         "s2mm_prmry_reset_out_n", "axi_vdma_tstvec"}},
+      {"blk_mem_gen", {"sbiterra", "dbiterra", "rdaddrecca", "sbiterrb", "dbiterrb", "rdaddreccb"}},
       {"axis_data_fifo",
        {"axis_data_count", "axis_wr_data_count", "axis_rd_data_count", "almost_empty",
         "almost_full", "prog_empty", "prog_full"}},

@@ -230,6 +230,19 @@ RtlSources RtlFinder::find(const Module& module) const {
   return sources;
 }
 
+std::string RtlFinder::data_file(const std::string& path) const {
+  const auto known = by_filename_.find(fs::path(path).filename().string());
+  if (known == by_filename_.end()) return {};
+  const std::size_t up = path.rfind("../");
+  const std::string ending = "/" + (up == std::string::npos ? path : path.substr(up + 3));
+  for (const std::string& file : known->second) {
+    if (file.size() > ending.size() &&
+        file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
+      return file;
+  }
+  return known->second.size() == 1 ? known->second.front() : std::string();
+}
+
 // Their models are the vendor's, and may be in a folder, too.
 void RtlFinder::add_primitives(RtlSources& sources) const {
   for (std::size_t i = 0; i < sources.files.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <chip/block_design/diagram.h>
 #include <chip/block_design/import_design.h>
 #include <chip/block_design/import_levels.h>
+#include <chip/block_design/memory_file.h>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -143,7 +144,7 @@ BOOST_AUTO_TEST_CASE(a_pin_that_drives_a_clock_is_one) {
 
 BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_is_named) {
   kit::HwhText text = kit::small_handoff();
-  text.module("rom", "xilinx.com:ip:blk_mem_gen:8.4", "", kit::pin("O", "douta", "rom_douta"));
+  text.module("rom", "xilinx.com:ip:blk_mem_gen:8.4", "", kit::pin("O", "sbiterra", "rom_douta"));
   text.module("not_0", "xilinx.com:ip:util_vector_logic:2.0", kit::parameter("C_OPERATION", "not"),
               kit::pin("I", "Op1", "rom_douta"));
   const ImportedDesign design = imported(text);
@@ -151,7 +152,7 @@ BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_is_named) {
     return std::count_if(design.notes.begin(), design.notes.end(),
                          [&](const std::string& note) { return has(note, what); });
   };
-  BOOST_TEST(says("`rom.douta` is not modelled: it stays 0") == 1);
+  BOOST_TEST(says("`rom.sbiterra` is not modelled: it stays 0") == 1);
   BOOST_TEST(says("is not modelled") == 1);
 }
 
@@ -216,6 +217,74 @@ BOOST_AUTO_TEST_CASE(a_reset_of_rtl_has_the_level_of_what_drives_it) {
     port.name = name;
     BOOST_TEST(!leaves_level_open(port, {}), name);
   }
+}
+
+// Vivado joins them as a bus of pins; what logic reads of a memory must not be lost with it.
+BOOST_AUTO_TEST_CASE(pins_of_a_memory_are_those_of_what_is_at_its_ports) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("control", "xilinx.com:ip:axi_bram_ctrl:4.1", "",
+              kit::pin("I", "s_axi_aclk", "ps_FCLK_CLK0") +
+                  kit::pin("O", "bram_addr_a", "c_addr", 13) +
+                  kit::pin("I", "bram_rddata_a", "m_douta", 32),
+              kit::bus("MASTER", "BRAM_PORTA", "c_port", "bram"));
+  const std::string widths =
+      kit::parameter("C_MEM_TYPE", "2") + kit::parameter("C_READ_WIDTH_A", "32") +
+      kit::parameter("C_WRITE_WIDTH_A", "32") + kit::parameter("C_READ_WIDTH_B", "32");
+  const std::string pins =
+      kit::pin("I", "addra", "c_addr", 32) + kit::pin("O", "douta", "m_douta", 32) +
+      kit::pin("I", "addrb", "r_addr", 32) + kit::pin("O", "doutb", "m_doutb", 32);
+  const auto with = [&](const std::string& more) {
+    kit::HwhText one = text;
+    one.module("memory", "xilinx.com:ip:blk_mem_gen:8.4", widths + more, pins,
+               kit::bus("SLAVE", "BRAM_PORTA", "c_port", "bram") +
+                   kit::bus("SLAVE", "BRAM_PORTB", "r_port", "bram"));
+    one.module("reader", "me:user:reader:1.0", "",
+               kit::pin("O", "addr", "r_addr", 32) + kit::pin("I", "data", "m_doutb", 32),
+               kit::bus("MASTER", "PORT", "r_port", "bram"));
+    return imported(one);
+  };
+  const ImportedDesign design = with(kit::parameter("C_WRITE_WIDTH_B", "32"));
+  const DesignFile file = parse_design(design.text, "design.yaml");
+  BOOST_TEST(file.part("memory")->pins.at("addra").text() == "control.bram_addr_a");
+  BOOST_TEST(file.part("memory")->pins.at("addrb").text() == "reader.addr");
+  BOOST_TEST(file.part("reader")->pins.at("data").text() == "memory.doutb");
+  BOOST_TEST((file.part("memory")->rule()->kind == Kind::model));
+  const auto why = [](const ImportedDesign& one) {
+    for (const ImportedPart& part : one.parts)
+      if (part.name == "memory") return part.why;
+    return std::string("absent");
+  };
+  BOOST_TEST(why(design) == "");
+  BOOST_TEST(why(with(kit::parameter("C_WRITE_WIDTH_B", "8"))) ==
+             "its port B reads 32 bits and writes 8, which is not modelled");
+  BOOST_TEST(why(with(kit::parameter("C_WRITE_WIDTH_B", "32") +
+                      kit::parameter("C_USE_ECC", "1"))) == "C_USE_ECC = 1 is not modelled, but 0");
+  BOOST_TEST(
+      why(with(kit::parameter("C_WRITE_WIDTH_B", "32") + kit::parameter("C_LOAD_INIT_FILE", "1") +
+               kit::parameter("Coe_File", "../../a/font.coe"))) ==
+      "its contents, font.coe, were not found: name their folder with --rtl");
+}
+
+BOOST_AUTO_TEST_CASE(contents_of_a_memory) {
+  const auto read = [](const std::string& text) { return read_memory_file(text, "a.coe"); };
+  using Words = std::vector<std::uint64_t>;
+  BOOST_TEST(read("; a font\nmemory_initialization_radix=16;\n"
+                  "memory_initialization_vector =\n1F, 0\n; the rest\nff;") == (Words{31, 0, 255}),
+             boost::test_tools::per_element());
+  BOOST_TEST(
+      read("MEMORY_INITIALIZATION_RADIX = 2;memory_initialization_vector=101 1,") == (Words{5, 1}),
+      boost::test_tools::per_element());
+  const auto refused = [&](const std::string& text) { return input_error([&] { read(text); }); };
+  const std::string radix = "memory_initialization_radix=10;\nmemory_initialization_vector=";
+  BOOST_TEST(refused(radix + "1,\n1a;") == "a.coe:3: '1a' is not a number to the base 10");
+  BOOST_TEST(refused(radix + "18446744073709551616;") ==
+             "a.coe:2: '18446744073709551616' has more than 64 bits");
+  BOOST_TEST(refused("memory_initialization_radix=8;") ==
+             "a.coe:1: memory_initialization_radix must be 2, 10 or 16, and is '8'");
+  BOOST_TEST(refused("memory_initialization_vector=1;") ==
+             "a.coe:1: memory_initialization_radix must come before the vector");
+  BOOST_TEST(refused("") == "a.coe:1: it has no memory_initialization_vector");
+  BOOST_TEST(hex_number("1F") == 31u);
 }
 
 BOOST_AUTO_TEST_CASE(what_has_no_model_is_a_stub_with_a_reason) {
