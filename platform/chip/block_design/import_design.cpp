@@ -220,7 +220,7 @@ class Writer {
     if (rule && part.kind == Kind::stub) line("    as: stub  # " + part.why);
     if (part.kind == Kind::rtl) line("    rtl: build/" + part.target + ".so");
     write_parameters(with_file(module, part.kind), part.kind == Kind::stub ? nullptr : rule);
-    if (part.kind == Kind::stub) write_clocks(module);
+    if (part.kind == Kind::stub || part.kind == Kind::rtl) write_clocks(module);
     if (part.kind == Kind::model) note_files(module);
     write_pins(module, part.kind == Kind::stub);
     write_buses(module);
@@ -296,7 +296,7 @@ class Writer {
                               module.instance + " sends");
   }
 
-  /// Clocks that a stub would make, and something uses.
+  /// Clocks that a stub would make, or RTL makes, and something uses.
   void write_clocks(const Module& module) {
     std::string lines;
     for (const Port& port : module.ports) {

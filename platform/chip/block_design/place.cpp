@@ -134,6 +134,31 @@ class NarrowStream : public sc_core::sc_module {
   xilinx::AxisBuffer buffer;
 };
 
+/// The resets that an engine passes on to what is at its streams.
+class ResetOutputs : public sc_core::sc_module {
+ public:
+  explicit ResetOutputs(sc_core::sc_module_name name) : sc_module(name) {}
+  const char* kind() const override { return "ResetOutputs"; }
+  vp::Signal<bool> resetn{"resetn"};
+};
+
+/// Only where the design reads one.
+void add_reset_outputs(const Placement& at, xilinx::AxiDma& dma, Placed& placed) {
+  constexpr const char* names[] = {"mm2s_prmry_reset_out_n", "mm2s_cntrl_reset_out_n",
+                                   "s2mm_prmry_reset_out_n", "s2mm_sts_reset_out_n"};
+  const auto is_read = [&](const std::string& pin) {
+    for (const PlacedPart& other : at.design.parts)
+      for (const auto& [name, source] : other.pins)
+        if (source.part == at.part.name && source.port == pin) return true;
+    return false;
+  };
+  if (std::none_of(std::begin(names), std::end(names), is_read)) return;
+  auto outputs = std::make_unique<ResetOutputs>((at.part.name + "_reset_out").c_str());
+  dma.drive_reset_out(outputs->resetn);
+  for (const char* name : names) placed.outputs[name] = &outputs->resetn;
+  at.adapters.push_back(std::move(outputs));
+}
+
 void add_mm2s(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed& placed) {
   placed.masters["M_AXI_MM2S"] = memory_master(dma.mm2s().m_axi);
   const auto bytes =
@@ -196,6 +221,7 @@ Placed place_dma(const Placement& at) {
   placed.slaves = {{"S_AXI_LITE", registers(dma->s_axi_lite)}};
   placed.inputs = {{"axi_resetn", input(at, "axi_resetn", dma->axi_resetn)}};
   placed.outputs = {{"mm2s_introut", &dma->mm2s_introut}, {"s2mm_introut", &dma->s2mm_introut}};
+  add_reset_outputs(at, *dma, placed);
   if (dma->include_mm2s) add_mm2s(at, *dma, clock, placed);
   if (dma->include_s2mm) add_s2mm(at, *dma, clock, placed);
   if (dma->include_sg) placed.masters["M_AXI_SG"] = memory_master(dma->scatter_gather().m_axi);

@@ -55,6 +55,7 @@ struct StreamPort {
 /// A part in its place: its pins and buses by the vendor's names.
 struct Placed {
   std::unique_ptr<sc_core::sc_module> object;  ///< what it is; null: nothing, or the PS
+  std::vector<std::unique_ptr<sc_core::sc_module>> made = {};  ///< clocks that it makes
   std::map<std::string, vp::SignalBase*> outputs = {};
   std::map<std::string, vp::Clock*> clocks = {};  ///< outputs that are clocks
   std::map<std::string, std::function<void(vp::SignalBase& source)>> inputs = {};

@@ -20,6 +20,8 @@ Placed place_bram_ctrl(const Placement& at) {
   xilinx::AxiBramCtrlBuild build;
   build.axi4_lite = at.text("C_S_AXI_PROTOCOL") == "AXI4LITE";
   build.single_port = at.flag("C_SINGLE_PORT_BRAM");
+  constexpr std::uint32_t bits_of_byte = 8;
+  build.data_bytes = word(at, "C_S_AXI_DATA_WIDTH") / bits_of_byte;
   for (const AddressSegment& segment : at.design.addresses) {
     if (segment.slave.part == at.part.name)
       build.memory_size =

@@ -292,7 +292,7 @@ std::vector<IpRule> rules() {
        Kind::model,
        "AXI BRAM controller with its memory, as large as its segment (PG078)",
        {{"C_S_AXI_PROTOCOL", "AXI4", {"AXI4", "AXI4LITE"}},
-        {"C_S_AXI_DATA_WIDTH", "32", {"32"}},
+        {"C_S_AXI_DATA_WIDTH", "32", {"32", "64", "128", "256", "512", "1024"}},
         {"C_SINGLE_PORT_BRAM", "0", {"0", "1"}},
         {"C_ECC", "0", {"0"}}}},
       {"proc_sys_reset",

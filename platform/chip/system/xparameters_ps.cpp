@@ -163,7 +163,11 @@ void add_storage_and_network(std::vector<Block>& list) {
                   qspi::base + 0xFFF,
                   {qspi::interrupt_id},
                   {{"QSPI_CLK_FREQ_HZ", qspi_hz}, {"QSPI_MODE", 0}, {"QSPI_BUS_WIDTH", 2}},
-                  {{"CLOCK_FREQ", qspi_hz}, {"CONNECTION_MODE", 0}, {"BUS_WIDTH", 2}}});
+                  {{"CLOCK_FREQ", qspi_hz},
+                   {"CONNECTION_MODE", 0},
+                   {"BUS_WIDTH", 2},
+                   {"QSPI_MODE", 0},
+                   {"QSPI_BUS_WIDTH", 2}}});
   for (const unsigned n : {0u, 1u}) {
     const std::uint32_t sd = n == 0 ? sdio::sd0_base : sdio::sd1_base;
     list.push_back({numbered("PS7_SD_", n),
