@@ -1,5 +1,6 @@
 #include <chip/block_design/block_design.h>
 #include <chip/block_design/place_ports.h>
+#include <gic_registers.h>
 
 #include <vp/error.h>
 #include <vp/ip.h>
@@ -191,6 +192,15 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
     ports_.irq_f2p(lines->out);
     adapters_.push_back(std::move(lines));
   };
+  for (const auto& [pin, id] :
+       {std::pair{"Core0_nFIQ", gic::n_fiq_id}, {"Core0_nIRQ", gic::n_irq_id}}) {
+    const std::string name = part.name + "_" + pin;
+    placed.inputs[pin] = [this, name, number = id](vp::SignalBase& source) {
+      auto line = std::make_unique<xilinx::WireAdapter<bool>>(name.c_str(), source);
+      ports_.ps.connect(number, line->out);
+      adapters_.push_back(std::move(line));
+    };
+  }
   placed.masters["M_AXI_GP0"] = {[this](vp::Router& way) { ports_.m_axi_gp0(way); }};
   placed.masters["M_AXI_GP1"] = {[this, &part](vp::Router& way) {
     const auto clock = part.pins.find("M_AXI_GP1_ACLK");

@@ -282,6 +282,7 @@ std::vector<IpRule> rules() {
       {"processing_system7", Kind::model,
        "processing system (UG585): M_AXI_GP0 and GP1, S_AXI_GP0, GP1, HP0 to HP3 and ACP to the "
        "DDR (ACP without coherence, so warnings of caches are those of HP), FCLK 0 to 3, IRQ_F2P, "
+       "Core0_nFIQ and Core0_nIRQ, "
        "EMIO GPIO; other pins drive 0"},
       {"axi_dma", Kind::model,
        "AXI DMA, direct and scatter-gather (PG021); of a memory map wider than the stream MM2S has "

@@ -249,7 +249,15 @@ void add_pl_devices(HardwareMap& map, Zynq& zynq) {
 
 void add_interrupts(HardwareMap& map, Zynq& zynq) {
   for (const auto& interrupt : zynq.ps.interrupts()) {
-    map.interrupts.push_back({interrupt.id, interrupt.source->name()});
+    // What the PL drives is known by what is behind the pin of the PS.
+    const auto* pin =
+        dynamic_cast<const xilinx::WireAdapterBase*>(interrupt.source->get_parent_object());
+    const vp::SignalBase* source = interrupt.source;
+    if (pin) {
+      const xilinx::BitOrigin origin = xilinx::Wiring::origin(pin->source(), 0);
+      source = origin.signal ? origin.signal : &pin->source();
+    }
+    map.interrupts.push_back({interrupt.id, source->name()});
   }
   // A concat shows whose lines they are.
   const vp::SignalBase* lines = zynq.ps.gic.irq_f2p.signal();

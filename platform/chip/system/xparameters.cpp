@@ -104,7 +104,7 @@ void define_sdt(Section& out, const Device& device, unsigned number) {
       const bool is_asked_for = n == 0 || name == device.name;
       out.hex(is_asked_for ? Section::sdt : Section::library, name + "_INTERRUPTS" + end,
               sdt_interrupt(id));
-      if (!is_asked_for) continue;
+      if (!is_asked_for || id < gic::first_spi) continue;
       out.number(Section::sdt, "FABRIC_" + name + "_INTR" + end, id - gic::first_spi);
     }
     if (!device.interrupts.empty())

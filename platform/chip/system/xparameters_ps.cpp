@@ -381,6 +381,8 @@ std::uint32_t sdt_interrupt(std::uint32_t id) {
   if (id == gic::watchdog_id) return 0x10400E;
   constexpr std::uint32_t rising = 1u << 12, level_high = 4u << 12;
   const bool is_edge = id == system_watchdog::interrupt_id || id == 55 || id == 78;
+  constexpr std::uint32_t is_private = 1u << 20;
+  if (id < gic::first_spi) return is_private | level_high | (id - gic::sgi_count);
   return (id - gic::first_spi) | (is_edge ? rising : level_high);
 }
 

@@ -1,5 +1,6 @@
 // Designs of YAML, built: addresses, interrupts, clocks, wires, and what is refused.
 #include <chip/block_design/import_design.h>
+#include <chip/handoff/device_tree.h>
 #include <chip/system/hardware_map.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -113,6 +114,23 @@ BOOST_AUTO_TEST_CASE(an_interrupt_reaches_its_number) {
   BOOST_TEST(chip.zynq->ps.gic.logic().wire[63]);
   BOOST_TEST(!chip.zynq->ps.gic.logic().wire[61]);
   BOOST_TEST(!chip.zynq->ps.gic.logic().wire[62]);
+}
+
+BOOST_AUTO_TEST_CASE(a_private_interrupt_of_the_logic_reaches_its_number) {
+  Built chip(replaced(small_design(), "      IRQ_F2P: lines.dout",
+                      "      Core0_nIRQ: axi_gpio_0.ip2intc_irpt\n      IRQ_F2P: lines.dout"));
+  sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US));
+  BOOST_TEST(!chip.zynq->ps.gic.logic().wire[31]);
+  chip.part<xilinx::AxiGpio>("axi_gpio_0").ip2intc_irpt = true;
+  BOOST_TEST(chip.zynq->ps.gic.logic().wire[31], "active high at the pin (UG585 table 7-3)");
+  BOOST_TEST(!chip.zynq->ps.gic.logic().wire[28]);
+  const facts::HardwareMap map = hardware_map(*chip.zynq);
+  BOOST_TEST(map.xparameters.find("#define XPAR_FABRIC_AXI_GPIO_0_IP2INTC_IRPT_INTR 31\n") !=
+             std::string::npos);
+  BOOST_TEST(map.xparameters.find("#define XPAR_AXI_GPIO_0_INTERRUPTS 0x10400f\n") !=
+             std::string::npos);
+  BOOST_TEST(device_tree::shared_interrupt(31) == (std::vector<std::uint32_t>{1, 15, 0x304}),
+             boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(an_interrupt_of_a_stub_is_one_line) {
