@@ -63,9 +63,13 @@ Device at_place(Zynq& zynq, const HardwareMap& map, const HardwareMap::Device& p
                 {}};
   if (!module) return device;
   add_build(device, *module);
+  // The outputs of a part of a block design are its own, not those of a register interface.
+  const auto* slave = dynamic_cast<const axi::RtlPart*>(module->get_parent_object());
+  const sc_core::sc_object* part = slave ? slave : module;
+  device.part = capitals(part->basename());
   for (const auto& interrupt : map.interrupts) {
     const sc_core::sc_object* line = sc_core::sc_find_object(interrupt.source.c_str());
-    if (line && line->get_parent_object() == module)
+    if (line && line->get_parent_object() == part)
       device.interrupts.emplace_back(capitals(line->basename()), interrupt.id);
   }
   device.fabric_interrupts = fabric_interrupts(zynq, *module);

@@ -76,7 +76,9 @@ void define_classic(Section& out, const Device& device, unsigned number) {
       out.number(Section::classic, name + "_" + option, value);
   }
   for (const auto& [line, id] : device.interrupts)
-    out.number(Section::classic, "FABRIC_" + device.name + "_" + line + "_INTR", id);
+    out.number(Section::classic,
+               "FABRIC_" + (device.part.empty() ? device.name : device.part) + "_" + line + "_INTR",
+               id);
   if (!has_driver) return;
   const std::string fabric =
       "FABRIC_" + interrupt_driver(device.driver) + "_" + std::to_string(number);

@@ -323,6 +323,19 @@ BOOST_AUTO_TEST_CASE(rtl_that_lacks_a_pin_of_the_design_is_refused_by_name) {
              refused);
 }
 
+BOOST_AUTO_TEST_CASE(an_interrupt_has_the_name_of_its_part) {
+  Built chip(
+      "name: copying\nsettings: {device: xc7z020-1}\nparts:\n"
+      "  ps:\n    ip: xilinx.com:ip:processing_system7:5.5\n"
+      "    pins: {IRQ_F2P: copier.interrupt}\n"
+      "  copier:\n    ip: own:user:everything:1.0\n    rtl: " MARKERVP_EVERYTHING_RTL
+      "\n    pins: {ap_clk: ps.FCLK_CLK0}\n    buses: {s_axi_control: ps.M_AXI_GP0}\n"
+      "addresses:\n  ps.M_AXI_GP0:\n    copier.s_axi_control: [0x43C00000, 64 KiB]\n");
+  const std::string names = hardware_map(*chip.zynq).xparameters;
+  BOOST_TEST(names.find("#define XPAR_FABRIC_COPIER_INTERRUPT_INTR 61\n") != std::string::npos);
+  BOOST_TEST(names.find("FABRIC_COPIER_S_AXI_CONTROL_INTERRUPT") == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(rtl_makes_the_clocks_that_the_design_says) {
   const auto design = [](const std::string& clocks) {
     return "name: copying\nsettings: {device: xc7z020-1, ps.fclk_clk0.frequency: 100 MHz}\nparts:\n"
