@@ -245,6 +245,7 @@ bool Finder::is_low(const std::string& name, const std::string& said) const {
   for (const char* end : {"resetn", "rstn", "rst_n", "reset_n", "rst_ni"}) {
     if (ends_with(small(name), end)) return true;
   }
+  if (small(name) == "ap_rst") return false;  // HLS calls its resets so, and ap_rst_n
   const auto* place = std::find_if(rtl_.ports, rtl_.ports + rtl_.port_count,
                                    [&](const RtlPort& port) { return port.name == name; });
   refuse(place->place, "reset '" + name +

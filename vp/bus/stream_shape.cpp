@@ -69,7 +69,8 @@ unsigned bytes_between(const StreamShape& master, const StreamShape& slave) {
            bits_per_byte * slave.bytes, "put a width converter between");
   }
   for (const StreamField field : {StreamField::user, StreamField::id, StreamField::dest}) {
-    if (slave.bits(field) != 0 && slave.bits(field) < master.bits(field)) {
+    const bool loses = slave.bits(field) != 0 && slave.bits(field) < master.bits(field);
+    if (loses && !slave.ignores_upper_bits) {
       refuse(master, slave, field, master.bits(field), slave.bits(field),
              "the upper ones would be lost; make both alike");
     }

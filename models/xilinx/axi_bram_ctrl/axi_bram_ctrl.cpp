@@ -12,13 +12,8 @@ namespace xilinx {
 
 namespace {
 
-constexpr std::uint32_t lane_bytes = 4;
 constexpr std::uint64_t most_beats = 256;
 constexpr std::uint64_t boundary = 4096;  // AXI: a burst never crosses it
-
-std::uint64_t beats_of(std::uint64_t address, std::uint64_t bytes) {
-  return (address % lane_bytes + bytes + lane_bytes - 1) / lane_bytes;
-}
 
 }  // namespace
 
@@ -36,12 +31,23 @@ AxiBramCtrl::AxiBramCtrl(sc_core::sc_module_name name, vp::Clock& s_axi_aclk,
       write_latency("write_latency", 2, vp::Unit::cycles, {1, 64}, vp::Source::assumed,
                     "clocks from the address to the first word, and response"),
       clock_(s_axi_aclk),
+      data_bytes_(build.data_bytes),
       memory_(memory_size, 0) {
   if ((memory_size & (memory_size - 1)) != 0) {
     throw vp::InputError(std::string(memory_size.name()) + " = " + std::to_string(memory_size) +
                          " B: must be a power of two");
   }
   show(memory_.data(), 0, memory_.size());
+}
+
+void AxiBramCtrl::extend(std::size_t bytes) {
+  if (bytes > memory_.size()) memory_.resize(bytes);
+  show(memory_.data(), 0, memory_size);
+}
+
+void AxiBramCtrl::share(AxiBramCtrl& other) {
+  other.extend(memory_size);
+  show(other.memory_.data(), 0, memory_size);
 }
 
 void AxiBramCtrl::before_end_of_elaboration() {
@@ -51,6 +57,10 @@ void AxiBramCtrl::before_end_of_elaboration() {
 void AxiBramCtrl::on_change(vp::SignalBase&, std::uint32_t) {
   read_free_ps_ = write_free_ps_ = 0;
   if (in_reset()) s_axi->invalidate_direct_mem_ptr(0, memory_.size() - 1);
+}
+
+std::uint64_t AxiBramCtrl::beats_of(std::uint64_t address, std::uint64_t bytes) const {
+  return (address % data_bytes_ + bytes + data_bytes_ - 1) / data_bytes_;
 }
 
 tlm::tlm_response_status AxiBramCtrl::check(const tlm::tlm_generic_payload& payload) const {

@@ -19,9 +19,10 @@ struct AxiBramCtrlBuild {
   std::uint32_t memory_size = 8192;  ///< bytes
   bool axi4_lite = false;            ///< single words only
   bool single_port = false;          ///< reads and writes share a port of the memory
+  std::uint32_t data_bytes = 4;      ///< of a beat: 4 to 128, a power of two
 };
 
-/// AXI BRAM controller v4.1 (PG078) with its memory, 32 bit wide, without ECC.
+/// AXI BRAM controller v4.1 (PG078) with its memory, 32 to 1024 bits wide, without ECC.
 ///
 /// A burst takes the latency and a clock a beat. The controller works on one burst at a time for
 /// each port of the memory: the next one begins when it is free. Bursts obey AXI: at most 256
@@ -49,6 +50,11 @@ class AxiBramCtrl : public vp::MemoryTarget, public vp::SignalListener {
 
   /// The bytes, for loading and for tests. A reset of the controller leaves them alone.
   std::vector<unsigned char>& contents() { return memory_; }
+  /// The memory has this many bytes at least, of which software reaches `memory_size`; before the
+  /// simulation.
+  void extend(std::size_t bytes);
+  /// The memory is that of another controller, at another port of it; before the simulation.
+  void share(AxiBramCtrl& other);
 
  private:
   void before_end_of_elaboration() override;
@@ -61,7 +67,10 @@ class AxiBramCtrl : public vp::MemoryTarget, public vp::SignalListener {
   bool get_direct_mem_ptr(tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi) override;
   std::uint64_t take_port(bool read, std::uint64_t earliest_ps, std::uint64_t burst_beats);
 
+  std::uint64_t beats_of(std::uint64_t address, std::uint64_t bytes) const;
+
   vp::Clock& clock_;
+  const std::uint32_t data_bytes_;
   std::vector<unsigned char> memory_;
   std::uint64_t read_free_ps_ = 0;   ///< from when the reading side is free
   std::uint64_t write_free_ps_ = 0;  ///< the same for writing; one port: equal

@@ -183,7 +183,12 @@ void AxiDma::before_end_of_elaboration() {
   if (axi_resetn.bound()) axi_resetn.signal()->attach(*this, reset_pin);
 }
 
+void AxiDma::show_reset(bool is_active) {
+  for (vp::Signal<bool>* signal : reset_outs_) *signal = !is_active;
+}
+
 void AxiDma::start_of_simulation() {
+  show_reset(axi_resetn.bound() && !axi_resetn);
   s_axi_lite.hold_in_reset(axi_resetn.bound() && !axi_resetn);
 }
 
@@ -193,6 +198,7 @@ void AxiDma::on_change(vp::SignalBase& signal, std::uint32_t id) {
     return Clocked::on_change(signal, id);
   }
   if (!axi_resetn) reset();
+  show_reset(!axi_resetn);
   s_axi_lite.hold_in_reset(!axi_resetn);
 }
 
@@ -295,10 +301,12 @@ std::uint64_t AxiDma::run_soft_reset(std::uint64_t cycle) {
                                    [cycle](const Interrupt& i) { return i.channel->quiet(cycle); });
     if (!quiet || (scatter_gather_ && !scatter_gather_->m_axi.done())) return cycle + 1;
     reset_done_at_ = cycle + latencies.reset_cycles;
+    show_reset(true);
   }
   if (cycle < reset_done_at_) return reset_done_at_;
   s_axi_lite.reset();
   reset();
+  show_reset(false);
   return vp::Clock::never;
 }
 

@@ -61,6 +61,10 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   vp::Signal<bool> mm2s_introut{"mm2s_introut"};
   vp::Signal<bool> s2mm_introut{"s2mm_introut"};
 
+  /// Follows `mm2s_prmry_reset_out_n` and its like, which are low while the engine resets what is
+  /// at its streams; before the simulation.
+  void drive_reset_out(vp::Signal<bool>& signal) { reset_outs_.push_back(&signal); }
+
   /// The channels. Throw std::logic_error if the build does not have them.
   Mm2sChannel& mm2s();
   S2mmChannel& s2mm();
@@ -127,6 +131,9 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
   std::uint64_t planned_ = 0;  ///< the next edge that runs, unless a signal wakes it earlier
   std::uint64_t beat_at_ = vp::Clock::never;  ///< edge that runs for a beat of S2MM besides
   bool stopped_ = false;
+  void show_reset(bool is_active);
+
+  std::vector<vp::Signal<bool>*> reset_outs_;
   bool resetting_ = false;
   std::uint64_t reset_done_at_ = vp::Clock::never;
 };

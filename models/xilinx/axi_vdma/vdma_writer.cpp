@@ -34,6 +34,7 @@ VdmaWriter::VdmaWriter(sc_core::sc_module_name name, vp::Clock& clock, vp::Regis
       irq_mask_(bank[S2MM_VDMA_IRQ_MASK]) {
   vp::StreamShape shape{std::string(this->name()) + ".s_axis_s2mm", stream_bytes};
   shape.user = 1;
+  shape.ignores_upper_bits = true;
   s_axis.set_shape(shape);
   wake_on(s_axis.tvalid);
 }

@@ -206,6 +206,7 @@ VAxi4sVidOut::Stream::Stream(sc_core::sc_module_name name, vp::Clock& aclk, VAxi
     : Clocked(name, aclk), out_(out), bytes_(bytes) {
   vp::StreamShape shape{std::string(out.name()) + ".s_axis_video", bytes};
   shape.user = 1;
+  shape.ignores_upper_bits = true;
   s_axis_video.set_shape(shape);
   wake_on(s_axis_video.tvalid);
 }

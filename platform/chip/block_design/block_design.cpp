@@ -1,11 +1,13 @@
 #include <chip/block_design/block_design.h>
 #include <chip/block_design/place_ports.h>
+#include <gic_registers.h>
 
 #include <vp/error.h>
 #include <vp/ip.h>
 #include <vp/report.h>
 #include <vp/text.h>
 #include <xilinx/axi_uartlite/axi_uartlite.h>
+#include <xilinx/blk_mem_gen/blk_mem_gen.h>
 #include <xilinx/register_stub/register_stub.h>
 #include <xilinx/wiring/wiring.h>
 
@@ -50,6 +52,7 @@ void BlockDesign::build() {
   place_all();
   for (const PlacedPart& part : design_.parts) join_pins(part);
   join_serial_lines();
+  join_memories();
   join_streams();
   join_addresses();
   close_open_streams();
@@ -146,11 +149,14 @@ Placed& BlockDesign::placed(const std::string& name) {
   if (std::find(being_placed_.begin(), being_placed_.end(), name) != being_placed_.end())
     throw vp::InputError(part.place + ": the clock of " + name + " is made from itself");
   being_placed_.push_back(name);
-  const Placement placement{part, ports_, design_,
+  const Placement placement{part,
+                            ports_,
+                            design_,
                             [this, &part](const std::string& pin) -> vp::Clock* {
                               const auto source = part.pins.find(pin);
                               return source == part.pins.end() ? nullptr : clock_of(source->second);
                             },
+                            [this](const End& source) { return clock_of(source); },
                             adapters_};
   Placed made = name == ps_ ? place_processing_system(part) : place_part(placement);
   being_placed_.pop_back();
@@ -186,6 +192,15 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
     ports_.irq_f2p(lines->out);
     adapters_.push_back(std::move(lines));
   };
+  for (const auto& [pin, id] :
+       {std::pair{"Core0_nFIQ", gic::n_fiq_id}, {"Core0_nIRQ", gic::n_irq_id}}) {
+    const std::string name = part.name + "_" + pin;
+    placed.inputs[pin] = [this, name, number = id](vp::SignalBase& source) {
+      auto line = std::make_unique<xilinx::WireAdapter<bool>>(name.c_str(), source);
+      ports_.ps.connect(number, line->out);
+      adapters_.push_back(std::move(line));
+    };
+  }
   placed.masters["M_AXI_GP0"] = {[this](vp::Router& way) { ports_.m_axi_gp0(way); }};
   placed.masters["M_AXI_GP1"] = {[this, &part](vp::Router& way) {
     const auto clock = part.pins.find("M_AXI_GP1_ACLK");
@@ -209,6 +224,8 @@ vp::Clock* BlockDesign::clock_of(const End& source) {
   // Known before it is placed: stubs and RTL may drive each other in a ring.
   const bool drives_wires = part.is_stub() || !part.rtl.empty();
   if (drives_wires && part.clocks.count(source.port) == 0) return nullptr;
+  // Block memory has the clock of the logic at its ports, which it drives.
+  if (!drives_wires && part.rule() && part.rule()->ip == "blk_mem_gen") return nullptr;
   Placed& driver = placed(source.part);
   const auto found = driver.clocks.find(source.port);
   return found == driver.clocks.end() ? nullptr : found->second;
@@ -277,6 +294,16 @@ void BlockDesign::join_serial_lines() {
              "and " + part.name + ".rx have other baud rates or formats: give both the same");
     }
     sender.connect(*receiver);
+  }
+}
+
+// A port of a memory at a controller is what software sees of it.
+void BlockDesign::join_memories() {
+  for (const PlacedPart& part : design_.parts) {
+    xilinx::BlkMemGen* memory = placed(part.name).memory;
+    if (!memory) continue;
+    for (const PlacedPart* controller : controllers_of(design_, part))
+      memory->share(*placed(controller->name).controller);
   }
 }
 

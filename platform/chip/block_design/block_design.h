@@ -90,6 +90,7 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   std::unique_ptr<vp::Signal<std::uint64_t>> tie(const End& source);
   void join_pins(const PlacedPart& part);
   void join_serial_lines();
+  void join_memories();
   void join_streams();
   void join_stream(const End& master, const End& slave);
   vp::AxiStream& make_stream(const End& master);

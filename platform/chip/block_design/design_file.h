@@ -28,7 +28,7 @@ struct PlacedPart {
   std::string rtl;    ///< Verilated RTL in its place, relative to the design's file; "": none
   std::string place;  ///< file and line
   std::map<std::string, std::string> parameters;
-  std::map<std::string, std::uint64_t> clocks;  ///< of a stub: frequency of an output, Hz
+  std::map<std::string, std::uint64_t> clocks;  ///< of a stub or RTL: frequency of an output, Hz
   std::map<std::string, End> pins;              ///< input: what drives it
   std::map<std::string, End> buses;             ///< slave: its master
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 
 namespace platform::block_design {
@@ -154,6 +155,31 @@ class Tables {
   std::set<std::string> written_;
 };
 
+/// With a system device tree a device without a driver has the names of its label and of its kind,
+/// whatever its bus is called: the first one's.
+std::string label_names(const Handoff& handoff, const std::string& known) {
+  std::string text;
+  std::set<std::string> seen, labels;
+  std::map<std::string, unsigned> numbers;
+  const auto& segments = handoff.ps().segments;
+  for (const handoff::Segment& segment : segments) labels.insert(upper(segment.instance));
+  for (const handoff::Segment& segment : segments) {
+    const Module* module = handoff.module(segment.instance);
+    if (!module || module == &handoff.ps() || !seen.insert(segment.instance).second) continue;
+    const std::string label = upper(segment.instance);
+    if (known.find("#define XPAR_" + label + "_BASEADDR ") != std::string::npos) continue;
+    const std::string kind = upper(module->ip());
+    const std::string number = std::to_string(numbers[kind]++);
+    std::vector<std::string> names{label};
+    if (labels.count(kind + "_" + number) == 0) names.push_back(kind + "_" + number);
+    for (const std::string& name : names) {
+      text += "#define XPAR_" + name + "_BASEADDR " + vp::hex(segment.base) + "U\n";
+      text += "#define XPAR_" + name + "_HIGHADDR " + vp::hex(segment.last) + "U\n";
+    }
+  }
+  return text.empty() ? text : "#ifdef SDT\n" + text + "#endif\n";
+}
+
 }  // namespace
 
 DriverFiles driver_files(const Handoff& handoff, const std::vector<OwnDriver>& drivers,
@@ -169,6 +195,7 @@ DriverFiles driver_files(const Handoff& handoff, const std::vector<OwnDriver>& d
     const auto [file, text] = tables.table();
     if (!file.empty()) result.files.emplace_back(driver.name + "/" + file, text);
   }
+  result.names += label_names(handoff, xparameters + result.names);
   if (!result.names.empty())
     result.names = "\n/* Drivers of the design's own IP */\n" + result.names;
   return result;

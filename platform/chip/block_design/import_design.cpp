@@ -1,4 +1,6 @@
 #include <chip/block_design/import_design.h>
+#include <chip/block_design/import_fit.h>
+#include <chip/block_design/import_levels.h>
 
 #include <slcr_registers.h>
 
@@ -60,7 +62,7 @@ bool is_memory_mapped(const BusInterface& bus) {
 }
 
 bool is_bus(const BusInterface& bus) {
-  return is_memory_mapped(bus) || bus.kind == "axis";
+  return is_memory_mapped(bus) || bus.kind == "axis" || bus.kind == "apb";
 }
 
 /// Parameters that say nothing of what an IP of the owner's does.
@@ -71,22 +73,6 @@ bool is_noise(const std::string& name) {
     return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
   };
   return names.count(name) != 0 || ends_with("_BASEADDR") || ends_with("_HIGHADDR");
-}
-
-/// The frequencies of clocks, by net, where their drivers may say nothing: what those that they
-/// drive are said to have, or what a clock wizard behind them was made for.
-std::map<std::string, double> clock_wishes(const Handoff& handoff) {
-  std::map<std::string, double> wishes;
-  for (const Module& module : handoff.modules) {
-    for (const Port& port : module.ports) {
-      if (port.direction != 'I' || port.signal.empty()) continue;
-      if (port.kind == "clk" && port.hz) wishes.emplace(port.signal, *port.hz);
-      if (module.ip() != "clk_wiz" || port.name != "clk_in1") continue;
-      const auto mhz = vp::Decimal::parse(parameter(module.parameters, "PRIM_IN_FREQ"));
-      if (mhz) wishes.emplace(port.signal, mhz->to_double() * hz_per_mhz);
-    }
-  }
-  return wishes;
 }
 
 /// Writes the sections of design.yaml one after the other.
@@ -226,23 +212,22 @@ class Writer {
     if (is_own) look_for_rtl(module, part);
     if (part.kind == Kind::rtl) rule = nullptr;
     if (rule) {
-      part.why = misfit(*rule, module);
-      if (part.why.empty()) part.why = driven_board_input(*rule, module);
+      part.why = misfit(*rule, module, nets_, rtl_);
       part.kind = part.why.empty() ? rule->kind : Kind::stub;
     }
     line("  " + module.instance + ":");
     line("    ip: " + yaml(module.vlnv));
     if (rule && part.kind == Kind::stub) line("    as: stub  # " + part.why);
     if (part.kind == Kind::rtl) line("    rtl: build/" + part.target + ".so");
-    write_parameters(module, part.kind == Kind::stub ? nullptr : rule);
-    if (part.kind == Kind::stub) write_clocks(module);
+    write_parameters(with_file(module, part.kind), part.kind == Kind::stub ? nullptr : rule);
+    if (part.kind == Kind::stub || part.kind == Kind::rtl) write_clocks(module);
     if (part.kind == Kind::model) note_files(module);
     write_pins(module, part.kind == Kind::stub);
     write_buses(module);
     result_.parts.push_back(std::move(part));
   }
 
-  void look_for_rtl(const Module& module, ImportedPart& part) const {
+  void look_for_rtl(const Module& module, ImportedPart& part) {
     if (rtl_.empty()) {
       part.why =
           module.is_vendors() ? "the platform has no model of it" : "no RTL was named for it";
@@ -251,32 +236,36 @@ class Writer {
     part.rtl = rtl_.find(module);
     part.why = part.rtl.why;
     if (part.rtl.files.empty()) return;
+    for (const BusInterface& bus : module.interfaces) {
+      if (bus.kind != "apb" || bus.bus.empty()) continue;
+      part.why = "its bus " + bus.name + " is APB, which RTL cannot have here";
+      part.rtl.files.clear();
+      return;
+    }
     part.kind = Kind::rtl;
+    for (const Port& port : module.ports) note_reset(module, port, part.rtl);
   }
 
-  /// Why the model cannot be built as the design wants it; "" if it can.
-  static std::string misfit(const IpRule& rule, const Module& module) {
-    for (const ParameterRule& known : rule.parameters) {
-      const std::string value = parameter(module.parameters, known.name);
-      if (!value.empty() && !is_allowed(known, value)) {
-        return known.name + " = " + value + " is not modelled, but " + allowed_values(known);
-      }
-    }
-    return {};
+  /// RTL that does not say at which level a pin resets is built for what drives the pin.
+  void note_reset(const Module& module, const Port& port, handoff::RtlSources& rtl) {
+    if (!leaves_level_open(port, rtl.files)) return;
+    const auto source = nets_.driver(port);
+    const std::optional<bool> low = source ? resets_low(nets_, *source) : std::nullopt;
+    rtl.interfaces.push_back(port.name + (!low ? ": wire" : *low ? ": reset low" : ": reset high"));
+    if (low) return;
+    result_.notes.push_back("`" + module.instance + "." + port.name +
+                            "` does not say at which level it resets, and neither does what drives "
+                            "it: CMakeLists.txt takes it for a wire, which changes nothing but "
+                            "checks; \"" +
+                            port.name + ": reset high\" there names the level");
   }
 
-  /// Why the model cannot take what drives its pins; "" if it can.
-  std::string driven_board_input(const IpRule& rule, const Module& module) const {
-    for (const std::string& pin : board_inputs(rule.ip)) {
-      const Port* port = module.port(pin);
-      const auto source = port ? nets_.driver(*port) : std::nullopt;
-      if (!source || !source->module ||
-          may_drive_board_input(rule.ip, source->module->vlnv, source->port->name))
-        continue;
-      return "its pin " + pin + " is driven by " + source->module->instance + "." +
-             source->port->name + ", and the model takes devices of the board only";
-    }
-    return {};
+  /// A memory that is loaded from a file, with the file that was found.
+  Module with_file(const Module& module, Kind kind) const {
+    Module found = module;
+    if (kind == Kind::model && loads_memory(module))
+      found.parameters["Coe_File"] = rtl_.data_file(parameter(module.parameters, "Coe_File"));
+    return found;
   }
 
   /// Of the shelf's IP those that matter and are not as usual; of the owner's all.
@@ -307,7 +296,7 @@ class Writer {
                               module.instance + " sends");
   }
 
-  /// Clocks that a stub would make, and something uses.
+  /// Clocks that a stub would make, or RTL makes, and something uses.
   void write_clocks(const Module& module) {
     std::string lines;
     for (const Port& port : module.ports) {
@@ -327,7 +316,8 @@ class Writer {
   void write_pins(const Module& module, bool is_stub) {
     std::set<std::string> of_buses;
     for (const BusInterface& bus : module.interfaces) {
-      if (!is_bus(bus) && bus.kind != "ddrx" && bus.kind != "bram") continue;
+      const bool is_memory = bus.kind == "bram" && module.ip() == "axi_bram_ctrl";
+      if (!is_bus(bus) && bus.kind != "ddrx" && !is_memory) continue;
       for (const auto& [logical, physical] : bus.pins) of_buses.insert(physical);
     }
     const IpRule* rule = rule_for(module.vlnv);
@@ -339,7 +329,7 @@ class Writer {
       const auto source = nets_.driver(port);
       if (!source) continue;
       const std::string text = pin_text(*source);
-      if (!is_stub) note_missing(*source);
+      if (!is_stub) note_missing(module, *source);
       if (is_interconnect) {
         if (port.kind != "clk") continue;
         if (main_clock.empty()) {
@@ -354,10 +344,11 @@ class Writer {
     }
   }
 
-  void note_missing(const handoff::Pin& source) {
+  void note_missing(const Module& module, const handoff::Pin& source) {
     const IpRule* rule = source.module ? rule_for(source.module->vlnv) : nullptr;
     if (!rule || !lacks_output(*rule, source.port->name)) return;
-    if (!misfit(*rule, *source.module).empty()) return;  // a stub has any
+    if (rule->ip == "axi_bram_ctrl" && module.ip() == "blk_mem_gen") return;  // they are one
+    if (!misfit(*rule, *source.module, nets_, rtl_).empty()) return;          // a stub has any
     const std::string text = pin_text(source);
     if (!missing_.insert(text).second) return;
     result_.notes.push_back("`" + text + "` is not modelled: it stays " +
@@ -457,7 +448,11 @@ class Writer {
       } else {
         const std::string width =
             port.width > 1 ? "width: " + std::to_string(port.width) + ", " : "";
-        lines.push_back("  " + yaml(port.name) + ": {" + width + "level: 0}");
+        const bool high = idles_high(handoff_, port);
+        lines.push_back("  " + yaml(port.name) + ": {" + width + "level: " + (high ? "1}" : "0}"));
+        if (high)
+          result_.notes.push_back("pin " + port.name +
+                                  " resets at 0, and is at 1: nothing is in reset");
       }
     }
     if (lines.empty()) return;

@@ -4,7 +4,6 @@
 #include <vp/error.h>
 #include <vp/text.h>
 #include <vp/unit.h>
-#include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/axi_interconnect/axi_interconnect.h>
@@ -135,6 +134,31 @@ class NarrowStream : public sc_core::sc_module {
   xilinx::AxisBuffer buffer;
 };
 
+/// The resets that an engine passes on to what is at its streams.
+class ResetOutputs : public sc_core::sc_module {
+ public:
+  explicit ResetOutputs(sc_core::sc_module_name name) : sc_module(name) {}
+  const char* kind() const override { return "ResetOutputs"; }
+  vp::Signal<bool> resetn{"resetn"};
+};
+
+/// Only where the design reads one.
+void add_reset_outputs(const Placement& at, xilinx::AxiDma& dma, Placed& placed) {
+  constexpr const char* names[] = {"mm2s_prmry_reset_out_n", "mm2s_cntrl_reset_out_n",
+                                   "s2mm_prmry_reset_out_n", "s2mm_sts_reset_out_n"};
+  const auto is_read = [&](const std::string& pin) {
+    for (const PlacedPart& other : at.design.parts)
+      for (const auto& [name, source] : other.pins)
+        if (source.part == at.part.name && source.port == pin) return true;
+    return false;
+  };
+  if (std::none_of(std::begin(names), std::end(names), is_read)) return;
+  auto outputs = std::make_unique<ResetOutputs>((at.part.name + "_reset_out").c_str());
+  dma.drive_reset_out(outputs->resetn);
+  for (const char* name : names) placed.outputs[name] = &outputs->resetn;
+  at.adapters.push_back(std::move(outputs));
+}
+
 void add_mm2s(const Placement& at, xilinx::AxiDma& dma, vp::Clock& clock, Placed& placed) {
   placed.masters["M_AXI_MM2S"] = memory_master(dma.mm2s().m_axi);
   const auto bytes =
@@ -197,32 +221,12 @@ Placed place_dma(const Placement& at) {
   placed.slaves = {{"S_AXI_LITE", registers(dma->s_axi_lite)}};
   placed.inputs = {{"axi_resetn", input(at, "axi_resetn", dma->axi_resetn)}};
   placed.outputs = {{"mm2s_introut", &dma->mm2s_introut}, {"s2mm_introut", &dma->s2mm_introut}};
+  add_reset_outputs(at, *dma, placed);
   if (dma->include_mm2s) add_mm2s(at, *dma, clock, placed);
   if (dma->include_s2mm) add_s2mm(at, *dma, clock, placed);
   if (dma->include_sg) placed.masters["M_AXI_SG"] = memory_master(dma->scatter_gather().m_axi);
   if (at.flag("C_SINGLE_INTERFACE")) join_masters(placed, {"M_AXI_MM2S", "M_AXI_S2MM"}, "M_AXI");
   placed.object = std::move(dma);
-  return placed;
-}
-
-/// Its memory is as large as the segment in which it is seen.
-Placed place_bram_ctrl(const Placement& at) {
-  xilinx::AxiBramCtrlBuild build;
-  build.axi4_lite = at.text("C_S_AXI_PROTOCOL") == "AXI4LITE";
-  build.single_port = at.flag("C_SINGLE_PORT_BRAM");
-  for (const AddressSegment& segment : at.design.addresses) {
-    if (segment.slave.part == at.part.name)
-      build.memory_size =
-          static_cast<std::uint32_t>(std::min<std::uint64_t>(segment.size, 1u << 30));
-  }
-  auto memory =
-      std::make_unique<xilinx::AxiBramCtrl>(at.part.name.c_str(), at.clock({"s_axi_aclk"}), build);
-  Placed placed;
-  xilinx::AxiBramCtrl* target = memory.get();
-  placed.slaves = {{"S_AXI", {[target](RegionSocket& socket) { socket.bind(target->s_axi); }}}};
-  placed.inputs = {{"s_axi_aresetn", input(at, "s_axi_aresetn", memory->s_axi_aresetn)}};
-  placed.unused_inputs = {"bram_rddata_a", "bram_rddata_b"};  // of the memory, which is part of it
-  placed.object = std::move(memory);
   return placed;
 }
 
@@ -375,6 +379,7 @@ Placed place_part(const Placement& at) {
   if (rule->ip == "axi_gpio") return place_gpio(at);
   if (rule->ip == "axi_dma") return place_dma(at);
   if (rule->ip == "axi_bram_ctrl") return place_bram_ctrl(at);
+  if (rule->ip == "blk_mem_gen") return place_block_memory(at);
   if (rule->ip == "proc_sys_reset") return place_reset(at);
   if (const Placer placer = stream_placer(at)) return placer(at);
   if (rule->ip.rfind("axis_", 0) == 0) return place_stream_buffer(at, rule->ip);

@@ -22,8 +22,10 @@
 #include <xilinx/axi_dma/memory_port.h>
 
 namespace xilinx {
+class AxiBramCtrl;
 class AxiUartlite;
-}
+class BlkMemGen;
+}  // namespace xilinx
 
 namespace platform::block_design {
 
@@ -53,11 +55,14 @@ struct StreamPort {
 /// A part in its place: its pins and buses by the vendor's names.
 struct Placed {
   std::unique_ptr<sc_core::sc_module> object;  ///< what it is; null: nothing, or the PS
+  std::vector<std::unique_ptr<sc_core::sc_module>> made = {};  ///< clocks that it makes
   std::map<std::string, vp::SignalBase*> outputs = {};
   std::map<std::string, vp::Clock*> clocks = {};  ///< outputs that are clocks
   std::map<std::string, std::function<void(vp::SignalBase& source)>> inputs = {};
-  std::set<std::string> unused_inputs = {};  ///< that change nothing; and clocks
-  xilinx::AxiUartlite* serial = nullptr;     ///< whose pins rx and tx carry characters, not levels
+  std::set<std::string> unused_inputs = {};   ///< that change nothing; and clocks
+  xilinx::AxiUartlite* serial = nullptr;      ///< whose pins rx and tx carry characters, not levels
+  xilinx::AxiBramCtrl* controller = nullptr;  ///< of block memory
+  xilinx::BlkMemGen* memory = nullptr;        ///< block memory, which controllers may have
   std::map<std::string, MasterPort> masters = {};
   std::map<std::string, SlavePort> slaves = {};
   std::map<std::string, StreamPort> stream_masters = {}, stream_slaves = {};
@@ -79,6 +84,8 @@ struct Placement {
   const DesignFile& design;
   /// The clock at a pin of this part; null if the pin is open.
   std::function<vp::Clock*(const std::string& pin)> clock_at;
+  /// The same of any pin that drives something.
+  std::function<vp::Clock*(const End& source)> clock_of;
   /// Holds what is made for its pins as long as the design.
   std::vector<std::unique_ptr<sc_core::sc_module>>& adapters;
 

@@ -70,6 +70,12 @@ Placer peripheral_placer(const std::string& ip);
 Placer stream_placer(const Placement& at);
 Placer video_placer(const std::string& ip);
 
+/// Block memory, and the controller of one.
+Placed place_block_memory(const Placement& at);
+Placed place_bram_ctrl(const Placement& at);
+/// The BRAM controllers at the ports of a block memory, one for each port that has one.
+std::vector<const PlacedPart*> controllers_of(const DesignFile& design, const PlacedPart& memory);
+
 /// The UART Lite whose `tx` drives the `rx` of this one; null: none does.
 const PlacedPart* serial_driver(const DesignFile& design, const PlacedPart& part);
 

@@ -83,6 +83,36 @@ void offer(const Placement& at, axi::RtlPart& part, const axi::Interface& interf
   }
 }
 
+/// A clock that RTL makes.
+class MadeClock : public sc_core::sc_module {
+ public:
+  MadeClock(sc_core::sc_module_name name, vp::ClockScheduler& scheduler, std::uint64_t hertz)
+      : sc_module(name), clk("clk", scheduler, hertz) {}
+  const char* kind() const override { return "MadeClock"; }
+  vp::Clock clk;
+};
+
+/// What the design says of clocks that the RTL makes. One that is as fast as a clock of its own is
+/// that clock, passed on (assumed).
+void make_clocks(const Placement& at, const axi::RtlPart& part, const axi::RtlPart::ClockPins& own,
+                 Placed& placed) {
+  for (const auto& [pin, hertz] : at.part.clocks) {
+    const auto& all = part.interfaces();
+    const bool is_output =
+        std::any_of(all.begin(), all.end(), [name = pin](const axi::Interface& one) {
+          return one.name == name && !one.slave && one.ports.size() == 1;
+        });
+    if (!is_output) at.refuse("'clocks' names '" + pin + "', which is no output of its RTL");
+    for (const auto& [name, clock] : own)
+      if (clock->frequency_hz() == hertz) placed.clocks[pin] = clock;
+    if (placed.clocks.count(pin) != 0) continue;
+    auto made =
+        std::make_unique<MadeClock>((at.part.name + "_" + pin).c_str(), at.ports.scheduler, hertz);
+    placed.clocks[pin] = &made->clk;
+    placed.made.push_back(std::move(made));  // what it clocks goes first
+  }
+}
+
 }  // namespace
 
 Placed place_rtl(const Placement& at) {
@@ -105,6 +135,7 @@ Placed place_rtl(const Placement& at) {
     offer(at, *part, interface, at.clock_at(interface.clock), placed);
     names[name_in_design(at, interface.name)] = interface.name;
   }
+  make_clocks(at, *part, clocks, placed);
   axi::RtlPart* rtl = part.get();
   // A reset that is left open is not active.
   placed.open_input = [rtl](const std::string& pin) {

@@ -83,6 +83,44 @@ ParameterRule only(const std::string& name, const std::string& value) {
   return {name, value, {value}};
 }
 
+ParameterRule in_range(const std::string& name, const std::string& usual, std::uint64_t least,
+                       std::uint64_t most) {
+  return {name, usual, {}, least, most};
+}
+
+IpRule memory() {
+  std::vector<ParameterRule> list{only("C_INTERFACE_TYPE", "0"),
+                                  {"C_MEM_TYPE", "0", {"0", "1", "2", "3", "4"}},
+                                  {"C_USE_BRAM_BLOCK", "0", {"0", "1"}},
+                                  {"C_BYTE_SIZE", "9", {"8", "9"}},
+                                  only("C_USE_ECC", "0"),
+                                  only("C_USE_SOFTECC", "0"),
+                                  only("C_MUX_PIPELINE_STAGES", "0"),
+                                  only("C_EN_SLEEP_PIN", "0"),
+                                  {"C_LOAD_INIT_FILE", "0", {"0", "1"}},
+                                  {"Coe_File", "no_coe_file_loaded", {"*"}},
+                                  {"C_USE_DEFAULT_DATA", "0", {"0", "1"}},
+                                  {"C_DEFAULT_DATA", "0", {"*"}},
+                                  {"C_COUNT_36K_BRAM", "0"},
+                                  {"C_COUNT_18K_BRAM", "0"}};
+  for (const std::string end : {"A", "B"}) {
+    list.push_back(in_range("C_WRITE_WIDTH_" + end, "9", 1, 64));
+    list.push_back(in_range("C_READ_WIDTH_" + end, "9", 1, 64));
+    list.push_back(in_range("C_WRITE_DEPTH_" + end, "2048", 2, 1u << 20));
+    list.push_back(in_range("C_READ_DEPTH_" + end, "2048", 2, 1u << 20));
+    list.push_back(
+        {"C_WRITE_MODE_" + end, "WRITE_FIRST", {"WRITE_FIRST", "READ_FIRST", "NO_CHANGE"}});
+    list.push_back({"C_INIT" + end + "_VAL", "0", {"*"}});
+    for (const char* name :
+         {"C_HAS_EN", "C_USE_BYTE_WE", "C_HAS_MEM_OUTPUT_REGS_", "C_HAS_MUX_OUTPUT_REGS_"})
+      list.push_back({name + end, "0", {"0", "1"}});
+  }
+  return {
+      "blk_mem_gen", Kind::model,
+      "block memory with native ports (PG058); a BRAM controller at a port lets software see it",
+      std::move(list)};
+}
+
 IpRule timer() {
   return {"axi_timer",
           Kind::model,
@@ -244,6 +282,7 @@ std::vector<IpRule> rules() {
       {"processing_system7", Kind::model,
        "processing system (UG585): M_AXI_GP0 and GP1, S_AXI_GP0, GP1, HP0 to HP3 and ACP to the "
        "DDR (ACP without coherence, so warnings of caches are those of HP), FCLK 0 to 3, IRQ_F2P, "
+       "Core0_nFIQ and Core0_nIRQ, "
        "EMIO GPIO; other pins drive 0"},
       {"axi_dma", Kind::model,
        "AXI DMA, direct and scatter-gather (PG021); of a memory map wider than the stream MM2S has "
@@ -254,7 +293,7 @@ std::vector<IpRule> rules() {
        Kind::model,
        "AXI BRAM controller with its memory, as large as its segment (PG078)",
        {{"C_S_AXI_PROTOCOL", "AXI4", {"AXI4", "AXI4LITE"}},
-        {"C_S_AXI_DATA_WIDTH", "32", {"32"}},
+        {"C_S_AXI_DATA_WIDTH", "32", {"32", "64", "128", "256", "512", "1024"}},
         {"C_SINGLE_PORT_BRAM", "0", {"0", "1"}},
         {"C_ECC", "0", {"0"}}}},
       {"proc_sys_reset",
@@ -279,6 +318,8 @@ std::vector<IpRule> rules() {
        "AXI Interconnect (PG059): a way for addresses, with `read_latency` and `write_latency`"},
       {"smartconnect", Kind::bus,
        "SmartConnect (PG247): a way for addresses, with `read_latency` and `write_latency`"},
+      {"axi_apb_bridge", Kind::bus,
+       "AXI to APB bridge (PG073): a way for addresses, with `read_latency` and `write_latency`"},
       {"axi_protocol_converter", Kind::bus,
        "AXI protocol converter (PG059): a way for addresses, with `read_latency` and "
        "`write_latency`"},
@@ -303,7 +344,7 @@ std::vector<IpRule> rules() {
        Kind::wiring,
        "one gate of all bits",
        {{"C_OPERATION", "and", {"and", "or", "xor"}}, {"C_SIZE", "8"}}},
-      {"blk_mem_gen", Kind::left_out, "block memory: that of a BRAM controller is part of it"},
+      memory(),
       {"ila", Kind::left_out, "logic analyser: software sees nothing of it"},
       {"system_ila", Kind::left_out, "logic analyser: software sees nothing of it"},
       {"vio", Kind::left_out, "virtual pins of the debugger"},

@@ -257,6 +257,8 @@ void add_dma_channels(Node& node, const PlDevice& device) {
 }  // namespace
 
 std::vector<std::uint32_t> shared_interrupt(std::uint32_t id) {
+  constexpr std::uint32_t first_private = 16, of_both_cores = 3u << 8;
+  if (id < first_shared_interrupt) return {1, id - first_private, of_both_cores | level_high};
   return {0, id - first_shared_interrupt, level_high};
 }
 

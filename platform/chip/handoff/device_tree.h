@@ -69,7 +69,8 @@ struct PlDevice {
   std::vector<std::pair<std::string, std::uint32_t>> options = {};  ///< "IS_DUAL", 0
 };
 
-/// The cells of a shared interrupt of the PS, which software knows as `id`: a level that is high.
+/// The cells of a shared interrupt of the PS, or of the PL's private ones (below 32), which
+/// software knows as `id`: a level that is high.
 std::vector<std::uint32_t> shared_interrupt(std::uint32_t id);
 /// The output of clkc that is FCLK_CLK`number`.
 std::uint32_t fclk_output(unsigned number);

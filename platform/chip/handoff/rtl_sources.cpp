@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 #include <string_view>
@@ -176,10 +178,30 @@ std::set<std::string> primitives_in(const std::string& source, bool vhdl) {
   return found;
 }
 
+/// Generics of VHDL that are vectors, by name, and their values in the source: no numbers, so that
+/// a build cannot set them.
+std::map<std::string, std::uint64_t> vector_generics(const std::string& text) {
+  static const std::regex declaration(
+      R"re((\w+)\s*:\s*(?:std_u?logic|bit)_vector\s*(?:\([^:;)]*\))?\s*:=\s*([xXbB]?)"([0-9A-Fa-f_]+)")re",
+      std::regex::icase);
+  constexpr int hexadecimal = 16, binary = 2;
+  std::map<std::string, std::uint64_t> list;
+  for (std::sregex_iterator match(text.begin(), text.end(), declaration), end; match != end;
+       ++match) {
+    std::string digits = (*match)[3];
+    digits.erase(std::remove(digits.begin(), digits.end(), '_'), digits.end());
+    const bool is_hex = (*match)[2] == "x" || (*match)[2] == "X";
+    list.emplace((*match)[1],
+                 std::strtoull(digits.c_str(), nullptr, is_hex ? hexadecimal : binary));
+  }
+  return list;
+}
+
 /// The numbers among the parameters of the design that the module declares, in its header or behind
 /// the word `parameter`; "NAME=number".
+/// `why` says which one cannot be set.
 std::vector<std::string> declared_parameters(const std::string& file, const Module& module,
-                                             const std::string& top) {
+                                             const std::string& top, std::string& why) {
   const std::string text = text_of(file);
   const auto list = words(text, is_vhdl(file) ? "--" : "//");
   std::set<std::string_view> declared;
@@ -190,10 +212,19 @@ std::vector<std::string> declared_parameters(const std::string& file, const Modu
     const bool behind = list[i - 1] == "parameter" || (i > 1 && list[i - 2] == "parameter");
     if (in_header || behind) declared.insert(list[i]);
   }
+  const auto vectors =
+      is_vhdl(file) ? vector_generics(text) : std::map<std::string, std::uint64_t>();
   std::vector<std::string> result;
   for (const auto& [name, value] : module.parameters) {
     const auto number = vp::Decimal::parse(value);
     const vp::Decimal::Whole whole = number ? number->whole().value_or(-1) : -1;
+    const auto vector = vectors.find(name);
+    if (declared.count(name) != 0 && vector != vectors.end()) {
+      if (whole != vp::Decimal::Whole{vector->second})
+        why = "its generic " + name + " is a vector, and only the value in " + file +
+              " can be built, not " + value;
+      continue;
+    }
     if (declared.count(name) != 0 && whole >= 0 && whole <= UINT32_MAX)
       result.push_back(name + "=" + std::to_string(static_cast<std::uint64_t>(whole)));
   }
@@ -224,10 +255,27 @@ RtlSources RtlFinder::find(const Module& module) const {
     if (port.kind == "rst" && port.direction == 'I' && port.active_high)
       sources.interfaces.push_back(port.name + ": reset high");
   }
+  std::string refused;
   const auto file = modules_.find(sources.top);
   if (!sources.files.empty() && file != modules_.end())
-    sources.parameters = declared_parameters(file->second, module, sources.top);
+    sources.parameters = declared_parameters(file->second, module, sources.top, refused);
+  if (refused.empty()) return sources;
+  sources.why = refused;
+  sources.files.clear();
   return sources;
+}
+
+std::string RtlFinder::data_file(const std::string& path) const {
+  const auto known = by_filename_.find(fs::path(path).filename().string());
+  if (known == by_filename_.end()) return {};
+  const std::size_t up = path.rfind("../");
+  const std::string ending = "/" + (up == std::string::npos ? path : path.substr(up + 3));
+  for (const std::string& file : known->second) {
+    if (file.size() > ending.size() &&
+        file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
+      return file;
+  }
+  return known->second.size() == 1 ? known->second.front() : std::string();
 }
 
 // Their models are the vendor's, and may be in a folder, too.

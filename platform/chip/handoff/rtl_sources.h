@@ -31,6 +31,9 @@ class RtlFinder {
   /// The drivers that lie beside the component.xml of the design's IP. Throws vp::InputError for a
   /// file that cannot be read.
   std::vector<OwnDriver> drivers(const Handoff& handoff) const;
+  /// A file that a project names relative to a folder of its own: the one whose path ends so, or
+  /// the only one of that name; "" if there is none, or several.
+  std::string data_file(const std::string& path) const;
   /// No folder was named.
   bool empty() const { return empty_; }
 

@@ -63,9 +63,13 @@ Device at_place(Zynq& zynq, const HardwareMap& map, const HardwareMap::Device& p
                 {}};
   if (!module) return device;
   add_build(device, *module);
+  // The outputs of a part of a block design are its own, not those of a register interface.
+  const auto* slave = dynamic_cast<const axi::RtlPart*>(module->get_parent_object());
+  const sc_core::sc_object* part = slave ? slave : module;
+  device.part = capitals(part->basename());
   for (const auto& interrupt : map.interrupts) {
     const sc_core::sc_object* line = sc_core::sc_find_object(interrupt.source.c_str());
-    if (line && line->get_parent_object() == module)
+    if (line && line->get_parent_object() == part)
       device.interrupts.emplace_back(capitals(line->basename()), interrupt.id);
   }
   device.fabric_interrupts = fabric_interrupts(zynq, *module);
@@ -249,7 +253,15 @@ void add_pl_devices(HardwareMap& map, Zynq& zynq) {
 
 void add_interrupts(HardwareMap& map, Zynq& zynq) {
   for (const auto& interrupt : zynq.ps.interrupts()) {
-    map.interrupts.push_back({interrupt.id, interrupt.source->name()});
+    // What the PL drives is known by what is behind the pin of the PS.
+    const auto* pin =
+        dynamic_cast<const xilinx::WireAdapterBase*>(interrupt.source->get_parent_object());
+    const vp::SignalBase* source = interrupt.source;
+    if (pin) {
+      const xilinx::BitOrigin origin = xilinx::Wiring::origin(pin->source(), 0);
+      source = origin.signal ? origin.signal : &pin->source();
+    }
+    map.interrupts.push_back({interrupt.id, source->name()});
   }
   // A concat shows whose lines they are.
   const vp::SignalBase* lines = zynq.ps.gic.irq_f2p.signal();

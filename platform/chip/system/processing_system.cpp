@@ -291,6 +291,11 @@ void ProcessingSystem::connect_interrupts() {
   cpu.n_irq(gic.n_irq);
 }
 
+void ProcessingSystem::connect(std::uint32_t id, vp::Signal<bool>& line) {
+  gic.connect(id, line);
+  interrupts_.push_back({id, &line});
+}
+
 double ProcessingSystem::highest_fclk_hz(double most_hz) const {
   constexpr auto kind = device::ClockKind::fclk;
   const double limit_hz = device::hz_per_mhz * limit_of(chip_.data, kind).value;

@@ -149,6 +149,9 @@ class ProcessingSystem : public sc_core::sc_module {
   };
   /// Those of the PS's own devices, by number. The PL's come through IRQ_F2P.
   const std::vector<Interrupt>& interrupts() const { return interrupts_; }
+  /// Joins a line of the PL to a private interrupt of CPU 0 (Core0_nFIQ, Core0_nIRQ); before the
+  /// simulation.
+  void connect(std::uint32_t id, vp::Signal<bool>& line);
 
   /// In a process that was forked while it ran: FixedMapping::leave_to_parent() of all memory.
   void leave_memory_to_parent();

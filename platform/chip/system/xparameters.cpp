@@ -76,7 +76,9 @@ void define_classic(Section& out, const Device& device, unsigned number) {
       out.number(Section::classic, name + "_" + option, value);
   }
   for (const auto& [line, id] : device.interrupts)
-    out.number(Section::classic, "FABRIC_" + device.name + "_" + line + "_INTR", id);
+    out.number(Section::classic,
+               "FABRIC_" + (device.part.empty() ? device.name : device.part) + "_" + line + "_INTR",
+               id);
   if (!has_driver) return;
   const std::string fabric =
       "FABRIC_" + interrupt_driver(device.driver) + "_" + std::to_string(number);
@@ -104,7 +106,7 @@ void define_sdt(Section& out, const Device& device, unsigned number) {
       const bool is_asked_for = n == 0 || name == device.name;
       out.hex(is_asked_for ? Section::sdt : Section::library, name + "_INTERRUPTS" + end,
               sdt_interrupt(id));
-      if (!is_asked_for) continue;
+      if (!is_asked_for || id < gic::first_spi) continue;
       out.number(Section::sdt, "FABRIC_" + name + "_INTR" + end, id - gic::first_spi);
     }
     if (!device.interrupts.empty())

@@ -41,6 +41,7 @@ struct Device {
   std::string compatible = {};  ///< "xlnx,axi-gpio-2.0"
   /// Lines to interrupt controllers of the PL.
   std::vector<FabricInterrupt> fabric_interrupts = {};
+  std::string part = {};  ///< whose interrupts they are, in capitals; empty: `name`
 };
 
 inline bool operator==(const Device& a, const Device& b) {

@@ -163,7 +163,11 @@ void add_storage_and_network(std::vector<Block>& list) {
                   qspi::base + 0xFFF,
                   {qspi::interrupt_id},
                   {{"QSPI_CLK_FREQ_HZ", qspi_hz}, {"QSPI_MODE", 0}, {"QSPI_BUS_WIDTH", 2}},
-                  {{"CLOCK_FREQ", qspi_hz}, {"CONNECTION_MODE", 0}, {"BUS_WIDTH", 2}}});
+                  {{"CLOCK_FREQ", qspi_hz},
+                   {"CONNECTION_MODE", 0},
+                   {"BUS_WIDTH", 2},
+                   {"QSPI_MODE", 0},
+                   {"QSPI_BUS_WIDTH", 2}}});
   for (const unsigned n : {0u, 1u}) {
     const std::uint32_t sd = n == 0 ? sdio::sd0_base : sdio::sd1_base;
     list.push_back({numbered("PS7_SD_", n),
@@ -377,6 +381,8 @@ std::uint32_t sdt_interrupt(std::uint32_t id) {
   if (id == gic::watchdog_id) return 0x10400E;
   constexpr std::uint32_t rising = 1u << 12, level_high = 4u << 12;
   const bool is_edge = id == system_watchdog::interrupt_id || id == 55 || id == 78;
+  constexpr std::uint32_t is_private = 1u << 20;
+  if (id < gic::first_spi) return is_private | level_high | (id - gic::sgi_count);
   return (id - gic::first_spi) | (is_edge ? rising : level_high);
 }
 

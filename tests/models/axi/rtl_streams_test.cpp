@@ -184,6 +184,15 @@ BOOST_FIXTURE_TEST_CASE(bits_of_tuser_that_would_be_lost_are_refused, Bench) {
              "would be lost; make both alike");
 }
 
+BOOST_FIXTURE_TEST_CASE(of_bits_that_say_nothing_to_it_a_receiver_takes_its_own, Bench) {
+  vp::StreamSink sink("sink", clock);
+  vp::StreamShape shape{"sink", 128};
+  shape.user = 1;
+  shape.ignores_upper_bits = true;
+  sink.s_axis.set_shape(shape);
+  BOOST_TEST(input_error([&] { sink.s_axis(out); }) == "nothing thrown");
+}
+
 namespace {
 
 /// The rules that RTL breaks, which a receiver lets wait and then takes, and a reset ends.

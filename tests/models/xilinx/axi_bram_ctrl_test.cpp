@@ -65,6 +65,18 @@ constexpr auto a_write = tlm::TLM_WRITE_COMMAND;
 
 BOOST_AUTO_TEST_SUITE(axi_bram_ctrl)
 
+BOOST_AUTO_TEST_CASE(a_wider_beat_carries_more) {
+  AxiBramCtrlBuild build;
+  build.data_bytes = 8;
+  Bench b(build);
+  b.master.simulate([&] {
+    BOOST_TEST(b.burst(a_read, 0, 8) == 3 * period + period, "from 0 to the first edge, then 3");
+    BOOST_TEST(b.burst(a_read, 0, 64) == (3 + 7) * period);
+    BOOST_TEST(b.burst(a_read, 4, 64) == (3 + 8) * period, "its ends are half a beat each");
+    BOOST_TEST(b.answer(0, 2048, 2048) == tlm::TLM_OK_RESPONSE);
+  });
+}
+
 BOOST_AUTO_TEST_CASE(words_and_bursts_keep_their_bytes) {
   Bench b;
   b.master.simulate([&] {

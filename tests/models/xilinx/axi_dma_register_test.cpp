@@ -286,6 +286,21 @@ BOOST_FIXTURE_TEST_CASE(soft_reset_of_either_channel_resets_both, DmaBench) {
   });
 }
 
+// From the edge on which it is quiet until the reset is over.
+BOOST_FIXTURE_TEST_CASE(what_is_at_its_streams_is_reset_with_it, DmaBench) {
+  vp::Signal<bool> resetn("resetn");
+  dma.drive_reset_out(resetn);
+  software.simulate([&] {
+    at(10);
+    BOOST_TEST(resetn.get());
+    write(MM2S_DMACR, dmacr::Reset);
+    at(15);
+    BOOST_TEST(!resetn.get());
+    at(20);
+    BOOST_TEST(resetn.get());
+  });
+}
+
 BOOST_FIXTURE_TEST_CASE(commands_during_a_soft_reset_are_lost, DmaBench) {
   software.simulate([&] {
     write(MM2S_DMACR, dmacr::RS | dmacr::Reset);

@@ -28,6 +28,9 @@ struct StreamShape {
   std::string end;     ///< what messages call it: "pl.filter.out_r"
   unsigned bytes = 4;  ///< of TDATA; 0: as many as the other end
   unsigned strobe = 0, user = 0, id = 0, dest = 0;
+  /// Of a receiver: the bits of TUSER, TID and TDEST above its own say nothing to it, as those of
+  /// video above the first one (UG934).
+  bool ignores_upper_bits = false;
 
   unsigned bits(StreamField field) const;
 };
@@ -43,7 +46,8 @@ struct StreamPart {
 };
 
 /// Bytes of a beat between these ends. Throws vp::InputError, which names both, for widths of TDATA
-/// that differ, and for bits of TUSER, TID or TDEST that the receiver would lose.
+/// that differ, and for bits of TUSER, TID or TDEST that the receiver would lose, unless they say
+/// nothing to it.
 unsigned bytes_between(const StreamShape& master, const StreamShape& slave);
 
 /// The further wires between them: all that the master drives. Of what it does not drive, the

@@ -1,5 +1,6 @@
 // Designs of YAML, built: addresses, interrupts, clocks, wires, and what is refused.
 #include <chip/block_design/import_design.h>
+#include <chip/handoff/device_tree.h>
 #include <chip/system/hardware_map.h>
 #include <vp/error.h>
 #include <vp/text.h>
@@ -115,6 +116,23 @@ BOOST_AUTO_TEST_CASE(an_interrupt_reaches_its_number) {
   BOOST_TEST(!chip.zynq->ps.gic.logic().wire[62]);
 }
 
+BOOST_AUTO_TEST_CASE(a_private_interrupt_of_the_logic_reaches_its_number) {
+  Built chip(replaced(small_design(), "      IRQ_F2P: lines.dout",
+                      "      Core0_nIRQ: axi_gpio_0.ip2intc_irpt\n      IRQ_F2P: lines.dout"));
+  sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_US));
+  BOOST_TEST(!chip.zynq->ps.gic.logic().wire[31]);
+  chip.part<xilinx::AxiGpio>("axi_gpio_0").ip2intc_irpt = true;
+  BOOST_TEST(chip.zynq->ps.gic.logic().wire[31], "active high at the pin (UG585 table 7-3)");
+  BOOST_TEST(!chip.zynq->ps.gic.logic().wire[28]);
+  const facts::HardwareMap map = hardware_map(*chip.zynq);
+  BOOST_TEST(map.xparameters.find("#define XPAR_FABRIC_AXI_GPIO_0_IP2INTC_IRPT_INTR 31\n") !=
+             std::string::npos);
+  BOOST_TEST(map.xparameters.find("#define XPAR_AXI_GPIO_0_INTERRUPTS 0x10400f\n") !=
+             std::string::npos);
+  BOOST_TEST(device_tree::shared_interrupt(31) == (std::vector<std::uint32_t>{1, 15, 0x304}),
+             boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_CASE(an_interrupt_of_a_stub_is_one_line) {
   const Built chip(replaced(small_design(), "IRQ_F2P: lines.dout", "IRQ_F2P: own_0.done"));
   std::vector<std::uint32_t> ids;
@@ -216,8 +234,8 @@ BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_rests_and_leaves_the_verdict_op
     BOOST_TEST(std::uint32_t{gpio.gpio.io_i} == (output.back() == 'n' ? 1u : 0u));
     return vp::join(chip.zynq->design().used_stubs(), " ");
   };
-  for (const char* lacking : {"axi_dma_0.axi_dma_tstvec", "axi_dma_0.mm2s_prmry_reset_out_n"})
-    BOOST_TEST(stubs_behind(lacking) == lacking);
+  BOOST_TEST(stubs_behind("axi_dma_0.axi_dma_tstvec") == "axi_dma_0.axi_dma_tstvec");
+  BOOST_TEST(stubs_behind("axi_dma_0.mm2s_prmry_reset_out_n") == "", "nothing is in reset");
   BOOST_TEST(stubs_behind("external.buttons") == "");
 }
 
@@ -302,6 +320,50 @@ BOOST_AUTO_TEST_CASE(rtl_that_lacks_a_pin_of_the_design_is_refused_by_name) {
   const std::string refused = input_error([] { Described("addrmap none { };").map("mode_2"); });
   BOOST_TEST(refused.find("'copier.mode_2' is no input of own:user:everything:1.0: did you mean "
                           "'mode'?") != std::string::npos,
+             refused);
+}
+
+BOOST_AUTO_TEST_CASE(an_interrupt_has_the_name_of_its_part) {
+  Built chip(
+      "name: copying\nsettings: {device: xc7z020-1}\nparts:\n"
+      "  ps:\n    ip: xilinx.com:ip:processing_system7:5.5\n"
+      "    pins: {IRQ_F2P: copier.interrupt}\n"
+      "  copier:\n    ip: own:user:everything:1.0\n    rtl: " MARKERVP_EVERYTHING_RTL
+      "\n    pins: {ap_clk: ps.FCLK_CLK0}\n    buses: {s_axi_control: ps.M_AXI_GP0}\n"
+      "addresses:\n  ps.M_AXI_GP0:\n    copier.s_axi_control: [0x43C00000, 64 KiB]\n");
+  const std::string names = hardware_map(*chip.zynq).xparameters;
+  BOOST_TEST(names.find("#define XPAR_FABRIC_COPIER_INTERRUPT_INTR 61\n") != std::string::npos);
+  BOOST_TEST(names.find("FABRIC_COPIER_S_AXI_CONTROL_INTERRUPT") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(rtl_makes_the_clocks_that_the_design_says) {
+  const auto design = [](const std::string& clocks) {
+    return "name: copying\nsettings: {device: xc7z020-1, ps.fclk_clk0.frequency: 100 MHz}\nparts:\n"
+           "  ps:\n    ip: xilinx.com:ip:processing_system7:5.5\n"
+           "  copier:\n    ip: own:user:everything:1.0\n    rtl: " MARKERVP_EVERYTHING_RTL
+           "\n    clocks: {" +
+           clocks +
+           "}\n    pins: {ap_clk: ps.FCLK_CLK0}\n    buses: {s_axi_control: ps.M_AXI_GP0}\n"
+           "  rst:\n    ip: xilinx.com:ip:proc_sys_reset:5.0\n"
+           "    pins: {slowest_sync_clk: copier.interrupt}\n"
+           "  other:\n    ip: xilinx.com:ip:proc_sys_reset:5.0\n"
+           "    pins: {slowest_sync_clk: ps.FCLK_CLK0}\n"
+           "addresses:\n  ps.M_AXI_GP0:\n    copier.s_axi_control: [0x43C00000, 64 KiB]\n";
+  };
+  {
+    Built chip(design("interrupt: 12.5 MHz"));
+    BOOST_TEST(chip.part<xilinx::ProcSysReset>("rst").clock().frequency_hz() == 12'500'000u);
+  }
+  {
+    Built chip(design("interrupt: 100 MHz"));
+    BOOST_TEST(&chip.part<xilinx::ProcSysReset>("rst").clock() ==
+                   &chip.part<xilinx::ProcSysReset>("other").clock(),
+               "its own clock, passed on");
+  }
+  const std::string refused =
+      input_error([&] { const Built chip(design("absent: 1 MHz, interrupt: 2 MHz")); });
+  BOOST_TEST(refused.find("copier: 'clocks' names 'absent', which is no output of its RTL") !=
+                 std::string::npos,
              refused);
 }
 

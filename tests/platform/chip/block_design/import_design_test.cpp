@@ -2,6 +2,8 @@
 #include <chip/block_design/design_file.h>
 #include <chip/block_design/diagram.h>
 #include <chip/block_design/import_design.h>
+#include <chip/block_design/import_levels.h>
+#include <chip/block_design/memory_file.h>
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
@@ -142,7 +144,7 @@ BOOST_AUTO_TEST_CASE(a_pin_that_drives_a_clock_is_one) {
 
 BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_is_named) {
   kit::HwhText text = kit::small_handoff();
-  text.module("rom", "xilinx.com:ip:blk_mem_gen:8.4", "", kit::pin("O", "douta", "rom_douta"));
+  text.module("rom", "xilinx.com:ip:blk_mem_gen:8.4", "", kit::pin("O", "sbiterra", "rom_douta"));
   text.module("not_0", "xilinx.com:ip:util_vector_logic:2.0", kit::parameter("C_OPERATION", "not"),
               kit::pin("I", "Op1", "rom_douta"));
   const ImportedDesign design = imported(text);
@@ -150,7 +152,7 @@ BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_is_named) {
     return std::count_if(design.notes.begin(), design.notes.end(),
                          [&](const std::string& note) { return has(note, what); });
   };
-  BOOST_TEST(says("`rom.douta` is not modelled: it stays 0") == 1);
+  BOOST_TEST(says("`rom.sbiterra` is not modelled: it stays 0") == 1);
   BOOST_TEST(says("is not modelled") == 1);
 }
 
@@ -159,6 +161,130 @@ BOOST_AUTO_TEST_CASE(parameters_as_usual_are_left_out) {
   BOOST_TEST(has(text, "      C_GPIO_WIDTH: 4\n"));
   BOOST_TEST(!has(text, "C_IS_DUAL"));
   BOOST_TEST(has(text, "      WIDTH: 8\n"));  // of an IP of the owner's
+}
+
+BOOST_AUTO_TEST_CASE(a_slave_of_apb_is_reached_through_its_bridge) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("bridge", "xilinx.com:ip:axi_apb_bridge:3.0", "",
+              kit::pin("I", "s_axi_aclk", "ps_FCLK_CLK0"),
+              kit::bus("SLAVE", "AXI4_LITE", "periph_M03") +
+                  kit::bus("MASTER", "APB_M", "bridge_APB", "apb"));
+  text.module("core", "me:user:core:1.0", "", "", kit::bus("SLAVE", "apb_s", "bridge_APB", "apb"));
+  const ImportedDesign design = imported(text);
+  const DesignFile file = parse_design(design.text, "design.yaml");
+  BOOST_TEST(file.part("core")->buses.at("apb_s").text() == "bridge.APB_M");
+  BOOST_TEST((file.part("bridge")->rule()->kind == Kind::bus));
+}
+
+// What the vendor's tools take for low where nothing is said is what drives the pin, or is behind
+// it.
+BOOST_AUTO_TEST_CASE(a_reset_from_the_board_is_not_active) {
+  kit::HwhText text = kit::small_handoff();
+  const std::string is_reset = R"(SIGIS="rst" POLARITY="ACTIVE_LOW")";
+  text.external(kit::pin("I", "button_low", "button_low", 1, is_reset));
+  text.external(kit::pin("I", "button", "button", 1, is_reset));
+  text.module("more", "xilinx.com:ip:proc_sys_reset:5.0", kit::parameter("C_EXT_RESET_HIGH", "0"),
+              kit::pin("I", "slowest_sync_clk", "ps_FCLK_CLK0") +
+                  kit::pin("I", "ext_reset_in", "button_low"));
+  text.module(
+      "less", "xilinx.com:ip:proc_sys_reset:5.0", kit::parameter("C_EXT_RESET_HIGH", "1"),
+      kit::pin("I", "slowest_sync_clk", "ps_FCLK_CLK0") + kit::pin("I", "ext_reset_in", "button"));
+  const ImportedDesign design = imported(text);
+  BOOST_TEST(has(design.text, "  button_low: {level: 1}\n"));
+  BOOST_TEST(has(design.text, "  button: {level: 0}\n"));
+}
+
+BOOST_AUTO_TEST_CASE(a_reset_of_rtl_has_the_level_of_what_drives_it) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("inverter", "xilinx.com:ip:util_vector_logic:2.0",
+              kit::parameter("C_OPERATION", "not"),
+              kit::pin("I", "Op1", "rst_0_aresetn") + kit::pin("O", "Res", "inverter_Res"));
+  const platform::handoff::Handoff handoff = read_hwh(text.text(), "small.hwh");
+  const platform::handoff::Netlist nets(handoff);
+  const auto low = [&](const std::string& part, const std::string& pin) {
+    const auto* module = handoff.module(part);
+    return resets_low(nets, {module, module->port(pin)});
+  };
+  BOOST_TEST((low("rst_0", "peripheral_aresetn") == true));
+  BOOST_TEST((low("ps", "FCLK_RESET0_N") == true));
+  BOOST_TEST((low("inverter", "Res") == false));
+  BOOST_TEST(!low("axi_gpio_0", "gpio_io_o"), "any wire");
+  platform::handoff::Port port;
+  port.name = "rst";
+  port.kind = "rst";
+  BOOST_TEST(leaves_level_open(port, {}));
+  for (const char* name : {"rst_n", "aresetn", "ap_rst"}) {
+    port.name = name;
+    BOOST_TEST(!leaves_level_open(port, {}), name);
+  }
+}
+
+// Vivado joins them as a bus of pins; what logic reads of a memory must not be lost with it.
+BOOST_AUTO_TEST_CASE(pins_of_a_memory_are_those_of_what_is_at_its_ports) {
+  kit::HwhText text = kit::small_handoff();
+  text.module("control", "xilinx.com:ip:axi_bram_ctrl:4.1", "",
+              kit::pin("I", "s_axi_aclk", "ps_FCLK_CLK0") +
+                  kit::pin("O", "bram_addr_a", "c_addr", 13) +
+                  kit::pin("I", "bram_rddata_a", "m_douta", 32),
+              kit::bus("MASTER", "BRAM_PORTA", "c_port", "bram"));
+  const std::string widths =
+      kit::parameter("C_MEM_TYPE", "2") + kit::parameter("C_READ_WIDTH_A", "32") +
+      kit::parameter("C_WRITE_WIDTH_A", "32") + kit::parameter("C_READ_WIDTH_B", "32");
+  const std::string pins =
+      kit::pin("I", "addra", "c_addr", 32) + kit::pin("O", "douta", "m_douta", 32) +
+      kit::pin("I", "addrb", "r_addr", 32) + kit::pin("O", "doutb", "m_doutb", 32);
+  const auto with = [&](const std::string& more) {
+    kit::HwhText one = text;
+    one.module("memory", "xilinx.com:ip:blk_mem_gen:8.4", widths + more, pins,
+               kit::bus("SLAVE", "BRAM_PORTA", "c_port", "bram") +
+                   kit::bus("SLAVE", "BRAM_PORTB", "r_port", "bram"));
+    one.module("reader", "me:user:reader:1.0", "",
+               kit::pin("O", "addr", "r_addr", 32) + kit::pin("I", "data", "m_doutb", 32),
+               kit::bus("MASTER", "PORT", "r_port", "bram"));
+    return imported(one);
+  };
+  const ImportedDesign design = with(kit::parameter("C_WRITE_WIDTH_B", "32"));
+  const DesignFile file = parse_design(design.text, "design.yaml");
+  BOOST_TEST(file.part("memory")->pins.at("addra").text() == "control.bram_addr_a");
+  BOOST_TEST(file.part("memory")->pins.at("addrb").text() == "reader.addr");
+  BOOST_TEST(file.part("reader")->pins.at("data").text() == "memory.doutb");
+  BOOST_TEST((file.part("memory")->rule()->kind == Kind::model));
+  const auto why = [](const ImportedDesign& one) {
+    for (const ImportedPart& part : one.parts)
+      if (part.name == "memory") return part.why;
+    return std::string("absent");
+  };
+  BOOST_TEST(why(design) == "");
+  BOOST_TEST(why(with(kit::parameter("C_WRITE_WIDTH_B", "8"))) ==
+             "its port B reads 32 bits and writes 8, which is not modelled");
+  BOOST_TEST(why(with(kit::parameter("C_WRITE_WIDTH_B", "32") +
+                      kit::parameter("C_USE_ECC", "1"))) == "C_USE_ECC = 1 is not modelled, but 0");
+  BOOST_TEST(
+      why(with(kit::parameter("C_WRITE_WIDTH_B", "32") + kit::parameter("C_LOAD_INIT_FILE", "1") +
+               kit::parameter("Coe_File", "../../a/font.coe"))) ==
+      "its contents, font.coe, were not found: name their folder with --rtl");
+}
+
+BOOST_AUTO_TEST_CASE(contents_of_a_memory) {
+  const auto read = [](const std::string& text) { return read_memory_file(text, "a.coe"); };
+  using Words = std::vector<std::uint64_t>;
+  BOOST_TEST(read("; a font\nmemory_initialization_radix=16;\n"
+                  "memory_initialization_vector =\n1F, 0\n; the rest\nff;") == (Words{31, 0, 255}),
+             boost::test_tools::per_element());
+  BOOST_TEST(
+      read("MEMORY_INITIALIZATION_RADIX = 2;memory_initialization_vector=101 1,") == (Words{5, 1}),
+      boost::test_tools::per_element());
+  const auto refused = [&](const std::string& text) { return input_error([&] { read(text); }); };
+  const std::string radix = "memory_initialization_radix=10;\nmemory_initialization_vector=";
+  BOOST_TEST(refused(radix + "1,\n1a;") == "a.coe:3: '1a' is not a number to the base 10");
+  BOOST_TEST(refused(radix + "18446744073709551616;") ==
+             "a.coe:2: '18446744073709551616' has more than 64 bits");
+  BOOST_TEST(refused("memory_initialization_radix=8;") ==
+             "a.coe:1: memory_initialization_radix must be 2, 10 or 16, and is '8'");
+  BOOST_TEST(refused("memory_initialization_vector=1;") ==
+             "a.coe:1: memory_initialization_radix must come before the vector");
+  BOOST_TEST(refused("") == "a.coe:1: it has no memory_initialization_vector");
+  BOOST_TEST(hex_number("1F") == 31u);
 }
 
 BOOST_AUTO_TEST_CASE(what_has_no_model_is_a_stub_with_a_reason) {
@@ -191,6 +317,11 @@ BOOST_AUTO_TEST_CASE(drivers_of_own_ip_have_the_tables_of_their_instances) {
   platform::handoff::Handoff handoff = read_hwh(text.text(), "small.hwh");
   for (auto& module : handoff.modules)
     if (module.ip() == "own") module.parameters["C_S00_AXI_BASEADDR"] = "0x43C00000";
+  const std::string vendors =
+      "#define XPAR_AXI_DMA_0_BASEADDR 0x40400000U\n#define XPAR_AXI_GPIO_0_BASEADDR 0x41200000U\n";
+  const std::string by_label =
+      "#ifdef SDT\n#define XPAR_OWN_0_BASEADDR 0x43C00000U\n"
+      "#define XPAR_OWN_0_HIGHADDR 0x43C0FFFFU\n#endif\n";
   platform::handoff::OwnDriver driver;
   driver.name = "own_v1_0";
   driver.peripherals = {"own"};
@@ -200,29 +331,34 @@ BOOST_AUTO_TEST_CASE(drivers_of_own_ip_have_the_tables_of_their_instances) {
        {"xparameters.h", "XOwn", "NUM_INSTANCES", "DEVICE_ID", "C_S00_AXI_BASEADDR"}},
       {"xdefine_canonical_xpars", {"xparameters.h", "XOwn", "DEVICE_ID", "C_S00_AXI_BASEADDR"}},
       {"xdefine_config_file", {"xown_g.c", "XOwn", "DEVICE_ID", "C_S00_AXI_BASEADDR"}}};
-  const DriverFiles files =
-      driver_files(handoff, {driver, driver}, "#define XPAR_OWN_0_S00_AXI_BASEADDR 0x43C00000U\n");
+  const DriverFiles files = driver_files(
+      handoff, {driver, driver}, vendors + "#define XPAR_OWN_0_S00_AXI_BASEADDR 0x43C00000U\n");
   BOOST_TEST(files.names ==
              "\n/* Drivers of the design's own IP */\n#define XPAR_XOWN_NUM_INSTANCES 1\n"
              "#define XPAR_OWN_0_DEVICE_ID 0\n#define XPAR_XOWN_0_DEVICE_ID 0\n"
-             "#define XPAR_XOWN_0_S00_AXI_BASEADDR 0x43C00000\n");
+             "#define XPAR_XOWN_0_S00_AXI_BASEADDR 0x43C00000\n" +
+                 by_label);
   BOOST_TEST_REQUIRE(files.files.size() == 2u, "one of each name");
   BOOST_TEST(files.files[0].first == "own_v1_0/xown.c");
   BOOST_TEST(files.files[1].first == "own_v1_0/xown_g.c");
   BOOST_TEST(has(files.files[1].second,
                  "XOwn_ConfigTable[] = {\n  {XPAR_OWN_0_DEVICE_ID, "
                  "XPAR_OWN_0_S00_AXI_BASEADDR},\n};"));
-  BOOST_TEST(!has(files.files[1].second + files.names, "SDT"), "it is the same in both flows");
+  BOOST_TEST(!has(files.files[1].second, "SDT"), "it is the same in both flows");
   driver.sources = {{"xown.h", "#ifdef SDT\n  char *Name;\n#else\n  u16 DeviceId;\n#endif\n"}};
-  const DriverFiles both = driver_files(handoff, {driver}, "");
+  const DriverFiles both = driver_files(handoff, {driver}, vendors);
   BOOST_TEST(has(both.names,
                  "#ifdef SDT\n#define XPAR_OWN_0_BASEADDR 0x43C00000\n"
                  "#define XPAR_XOWN_0_BASEADDR 0x43C00000\n#endif\n"));
+  BOOST_TEST(!has(both.names, by_label), "the driver gives the name");
   BOOST_TEST(has(both.files[1].second,
                  "#else\nXOwn_Config XOwn_ConfigTable[] = {\n  {\"xlnx,own-1.0\", "
                  "XPAR_OWN_0_S00_AXI_BASEADDR},\n  {NULL}};\n#endif\n"));
   driver.peripherals = {"another"};
-  BOOST_TEST(driver_files(handoff, {driver}, "").files.empty());
+  const DriverFiles none = driver_files(handoff, {driver}, vendors);
+  BOOST_TEST(none.files.empty());
+  BOOST_TEST(none.names == "\n/* Drivers of the design's own IP */\n" + by_label);
+  BOOST_TEST(is_for_device_tree({"f(XPAR_OWN_0_BASEADDR);"}, vendors + none.names));
 }
 
 BOOST_AUTO_TEST_CASE(a_program_shows_its_flow_by_the_names_that_it_uses) {

@@ -1,9 +1,11 @@
 // The small IP of the shelf as parts of a design: parameters, interrupts through controllers,
 // clocks, and what is refused.
 #include <chip/system/hardware_map.h>
+#include <xilinx/axi_bram_ctrl/axi_bram_ctrl.h>
 #include <xilinx/axi_cdma/axi_cdma.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_fifo_mm_s/axi_fifo_mm_s.h>
+#include <xilinx/axi_gpio/axi_gpio.h>
 #include <xilinx/axi_iic/axi_iic.h>
 #include <xilinx/axi_intc/axi_intc.h>
 #include <xilinx/axi_quad_spi/axi_quad_spi.h>
@@ -266,6 +268,58 @@ BOOST_AUTO_TEST_CASE(what_is_not_modelled_is_refused_by_name) {
       "{S_AXI: bus.M05_AXI}",
       "pins: {s_axi_aclk: ps.FCLK_CLK0, rx: axi_timer_0.pwm0}\n    buses: {S_AXI: bus.M05_AXI}");
   BOOST_TEST(has(line, "its pin rx is driven by axi_timer_0.pwm0"), line);
+}
+
+namespace {
+
+/// A memory that software sees through a controller at port A, and a GPIO at port B.
+std::string memory_design() {
+  const std::string on = clocked;
+  return "name: shared\nsettings: {device: xc7z020-1, ps.fclk_clk0.frequency: 100 MHz}\nparts:\n" +
+         part("ps", "processing_system7:5.5", "", "M_AXI_GP0_ACLK: ps.FCLK_CLK0", "") +
+         part("rst", "proc_sys_reset:5.0", "",
+              "slowest_sync_clk: ps.FCLK_CLK0, ext_reset_in: ps.FCLK_RESET0_N", "") +
+         part("bus", "axi_interconnect:2.1", "", "ACLK: ps.FCLK_CLK0", "S00_AXI: ps.M_AXI_GP0") +
+         part("control", "axi_bram_ctrl:4.1", "", on, "S_AXI: bus.M00_AXI") +
+         part("gpio", "axi_gpio:2.0", "C_IS_DUAL: 1, C_ALL_OUTPUTS: 1, C_ALL_INPUTS_2: 1",
+              on + ", gpio2_io_i: memory.doutb", "S_AXI: bus.M01_AXI") +
+         part("memory", "blk_mem_gen:8.4",
+              "C_MEM_TYPE: 2, C_USE_BRAM_BLOCK: 1, C_BYTE_SIZE: 8, C_WRITE_WIDTH_A: 32, "
+              "C_READ_WIDTH_A: 32, C_WRITE_WIDTH_B: 32, C_READ_WIDTH_B: 32, C_USE_BYTE_WEB: 1, "
+              "C_COUNT_36K_BRAM: 2",
+              "clka: control.bram_clk_a, addra: control.bram_addr_a, wea: control.bram_we_a, "
+              "clkb: ps.FCLK_CLK0, addrb: gpio.gpio_io_o",
+              "") +
+         "addresses:\n  ps.M_AXI_GP0:\n    control.S_AXI: [0x40000000, 8 KiB]\n"
+         "    gpio.S_AXI: [0x41200000, 64 KiB]\n";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(logic_reads_block_memory_that_software_writes) {
+  BuiltDesign chip(memory_design());
+  BOOST_TEST(dynamic_cast<platform::block_design::BlockDesign&>(*sc_core::sc_find_object("pl"))
+                 .used_stubs()
+                 .empty());
+  auto& control = chip.part<xilinx::AxiBramCtrl>("control");
+  auto& gpio = chip.part<xilinx::AxiGpio>("gpio");
+  control.contents()[0x104] = 0x5A;
+  BuiltDesign::pass_us(10);
+  BuiltDesign::write(gpio.s_axi, 0, 0x104);
+  BuiltDesign::pass_us(2000);  // clocks run up to 1 ms ahead of a test that is no process
+  BOOST_TEST(BuiltDesign::read(gpio.s_axi, 8) == 0x5Au);
+}
+
+BOOST_AUTO_TEST_CASE(block_memory_that_does_not_fit_is_refused) {
+  const auto refused = [](const std::string& what, const std::string& by) {
+    return input_error([&] { const BuiltDesign chip(replaced(memory_design(), what, by)); });
+  };
+  BOOST_TEST(has(refused("C_READ_WIDTH_B: 32", "C_READ_WIDTH_B: 16"),
+                 "memory: its port B reads other widths than it writes"));
+  BOOST_TEST(has(refused("C_COUNT_36K_BRAM: 2", "C_LOAD_INIT_FILE: 1, Coe_File: absent.coe"),
+                 "absent.coe"));
+  BOOST_TEST(has(refused("clkb: ps.FCLK_CLK0", "clkb: gpio.gpio_io_t"), "memory") == false,
+             "the clock of what drives it");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

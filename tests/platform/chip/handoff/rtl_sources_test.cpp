@@ -195,6 +195,26 @@ BOOST_FIXTURE_TEST_CASE(files_that_verilog_includes, Folders) {
 }
 
 // Of those that say nothing the vendor's tools say low.
+// Vivado's template of a peripheral with interrupts has such ones.
+BOOST_FIXTURE_TEST_CASE(a_generic_that_is_a_vector_keeps_the_value_of_its_source, Folders) {
+  write("vhdl/own.vhd",
+        "entity own is\n  generic (\n    SENSES : std_logic_vector := x\"FFFF_FFFF\";\n"
+        "    LEVELS : std_logic_vector(3 downto 0) := \"0101\";\n    WIDTH : integer := 1\n  );\n"
+        "  port (clk : in bit);\nend own;\n");
+  handoff::Module module = own();
+  module.parameters["SENSES"] = "0xFFFFFFFF";
+  module.parameters["LEVELS"] = "5";
+  const RtlSources same = RtlFinder({folder("vhdl")}).find(module);
+  BOOST_TEST(same.parameters == std::vector<std::string>{"WIDTH=8"},
+             boost::test_tools::per_element());
+  BOOST_TEST(same.files.size() == 1u);
+  module.parameters["LEVELS"] = "4";
+  const RtlSources other = RtlFinder({folder("vhdl")}).find(module);
+  BOOST_TEST(other.files.empty());
+  BOOST_TEST(other.why == "its generic LEVELS is a vector, and only the value in " +
+                              folder("vhdl") + "/own.vhd can be built, not 4");
+}
+
 BOOST_FIXTURE_TEST_CASE(a_reset_is_high_if_the_design_says_so, Folders) {
   handoff::Module module = own();
   handoff::Port reset;
