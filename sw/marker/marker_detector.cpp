@@ -95,7 +95,40 @@ CornerWeights own_weights(const QuadFit& fit) {
   return weights_of(own);
 }
 
+double variance_of(const QuadFit& fit) {
+  double sum = 0;
+  for (unsigned i = 0; i < 8; ++i) sum += fit.covariance[9 * i];
+  return sum;
+}
+
+/// True if all corners are within a quarter of a side.
+bool is_same_place(const Quad& one, const Quad& other) {
+  for (unsigned i = 0; i < 4; ++i) {
+    const Point off = other[i] - one[i], side = one[(i + 1) % 4] - one[i];
+    if (!(16 * dot(off, off) < dot(side, side))) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+void add_marker(const Detection& marker, Detections& found) {
+  for (std::uint32_t i = 0; i < found.count; ++i) {
+    Detection& other = found.markers[i];
+    if (other.marker.id != marker.marker.id ||
+        !is_same_place(other.marker.fit.image, marker.marker.fit.image)) {
+      continue;
+    }
+    ++found.blobs.refused[static_cast<std::uint32_t>(Refusal::twice)];
+    if (variance_of(marker.marker.fit) < variance_of(other.marker.fit)) other = marker;
+    return;
+  }
+  if (found.count == max_detections) {
+    ++found.blobs.lost;
+  } else {
+    found.markers[found.count++] = marker;
+  }
+}
 
 bool Board::find(std::uint32_t id, Places& places) const {
   switch (kind) {
@@ -139,13 +172,10 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
     const Refusal refusal = read_blob(near, extremes_of(words), marker);
     if (refusal != Refusal::none) {
       ++counts.refused[static_cast<std::uint32_t>(refusal)];
-    } else if (found.count == max_detections) {
-      ++counts.lost;
     } else {
-      Detection& detection = found.markers[found.count++];
+      Detection detection{};
       detection.marker = marker;
-      detection.pose.valid = false;
-      detection.motion = {};
+      add_marker(detection, found);
     }
   }
 }

@@ -91,6 +91,11 @@ inline void clear(Detections& found) {
   found.board_motion = {};
 }
 
+/// Adds a marker to those of the frame. Something that lies across a marker may cut it into two
+/// blobs, both of which lead to it: the one with the smaller variance stays, in the place of the
+/// first. Each blob is counted.
+void add_marker(const Detection& marker, Detections& found);
+
 /// From the blobs of a frame to its markers, and from those to poses.
 ///
 /// What a blob's words can decide is decided before a pixel is read: in a picture in DMA memory,

@@ -44,9 +44,10 @@ enum class Refusal : std::uint32_t {
   border,    ///< white cells in the black border
   plain,     ///< all of it is dark: it has no code
   unknown,   ///< its cells are no word of the dictionary
+  twice,     ///< a marker that another blob shows, too
 };
 
-inline constexpr std::uint32_t refusal_count = 8;
+inline constexpr std::uint32_t refusal_count = 9;
 
 constexpr const char* refusal_name(Refusal refusal) {
   switch (refusal) {
@@ -66,6 +67,8 @@ constexpr const char* refusal_name(Refusal refusal) {
       return "plain";
     case Refusal::unknown:
       return "unknown";
+    case Refusal::twice:
+      return "twice";
   }
   return "?";
 }
