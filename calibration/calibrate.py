@@ -61,6 +61,7 @@ KERNELS = {
     "response": ["curves_made"],
     "outline": ["outline_looks", "outline_points", "outline_distances", "outline_samples",
                 "outline_fitted", "outline_meets", "outline_covers", "outlines"],
+    "local_blobs": ["local_pixels", "local_runs", "local_joins", "local_rows", "local_frames"],
     "blob_detection": ["blob_pixels", "blob_dark", "blob_runs", "blob_rows", "blob_label_checks",
                        "blob_rivals", "blob_labels", "blobs_ended", "blob_frames"],
 }

@@ -70,6 +70,16 @@ bool is_cut(const Quad& quad, const GreyImage& image) {
   return false;
 }
 
+/// True if a blob is what is around the markers: its box has half of the picture, and reaches two
+/// of the picture's borders at least (decision).
+bool is_background(const Box& box, const GreyImage& image) {
+  const unsigned borders = (box.left == 0 ? 1 : 0) + (box.top == 0 ? 1 : 0) +
+                           (box.right == image.width ? 1 : 0) +
+                           (box.bottom == image.height ? 1 : 0);
+  return borders >= 2 &&
+         2 * (box.right - box.left) * (box.bottom - box.top) >= image.width * image.height;
+}
+
 /// The surroundings of a blob that are looked at.
 Box around(const Box& box, const GreyImage& image) {
   return {box.left - std::min(box.left, fetch_margin), box.top - std::min(box.top, fetch_margin),
@@ -149,10 +159,15 @@ void MarkerDetector::open(const Dictionary& dictionary, const DetectorOptions& o
 
 void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blobs,
                                   Detections& found) {
-  const FunctionScope scope(Function::marker_detection);
   clear(found);
+  add_markers(frame, blobs, found);
+}
+
+void MarkerDetector::add_markers(const CameraFrame& frame, const BlobList& blobs,
+                                 Detections& found) {
+  const FunctionScope scope(Function::marker_detection);
   BlobCounts& counts = found.blobs;
-  counts.received = blobs.count;
+  counts.received += blobs.count;
   work(Work::blobs_checked, blobs.count);
   CameraFrame near = frame;
   for (std::uint32_t i = 0; i < blobs.count; ++i) {
@@ -172,6 +187,7 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
     const Refusal refusal = read_blob(near, extremes_of(words), marker);
     if (refusal != Refusal::none) {
       ++counts.refused[static_cast<std::uint32_t>(refusal)];
+      if (is_background(box, frame.image)) ++counts.background;
     } else {
       Detection detection{};
       detection.marker = marker;

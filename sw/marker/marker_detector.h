@@ -46,6 +46,7 @@ struct BlobCounts {
   std::uint32_t small;
   std::array<std::uint32_t, refusal_count> refused;  ///< by Refusal
   std::uint32_t lost;                                ///< markers for which there was no room
+  std::uint32_t background;  ///< of those refused: what is around the markers
 };
 
 /// More markers of a frame are counted as lost.
@@ -107,6 +108,9 @@ class MarkerDetector {
 
   /// Finds the markers; `found` has no poses yet. The words may hold anything.
   void find_markers(const CameraFrame& frame, const BlobList& blobs, Detections& found);
+
+  /// Finds further ones in other blobs of the same frame.
+  void add_markers(const CameraFrame& frame, const BlobList& blobs, Detections& found);
 
   /// Measures those markers once more, as the frame's optics are now: poses are to be found anew.
   void measure_again(const CameraFrame& frame, Detections& found) const;

@@ -167,6 +167,7 @@ void Application::find_markers(const Slot& slot) {
   // Both cores found the poses of single markers.
   bool needs_poses =
       !options_.second_core || options_.detector.board.kind != marker::Board::Kind::none;
+  if (look_behind(picture)) needs_poses = true;
   while (optics_.learn(result_.found)) {
     detector_.measure_again(picture, result_.found);
     needs_poses = true;
@@ -177,6 +178,20 @@ void Application::find_markers(const Slot& slot) {
     pose_filter_.follow(result_.found, static_cast<double>(slot.started) * seconds_per_count_);
   }
   times.pose.end = times.frame.end = capture_.now();
+}
+
+/// Where the background is so dark that the logic takes it and the markers for one blob, the
+/// software parts them by a threshold of each pixel's own. True if it did.
+bool Application::look_behind(const marker::CameraFrame& picture) {
+  if (result_.found.blobs.background == 0) return false;
+  if (picture.optics == nullptr || !picture.optics->reads_outlines) return false;
+  const marker::GreyImage& image = picture.image;
+  hal_cache_invalidate(const_cast<std::uint8_t*>(image.pixels),
+                       std::size_t{image.width} * image.height);
+  const marker::BlobList blobs = local_blobs_.find(image, options_.detector.minimum_side);
+  detector_.add_markers(picture, blobs, result_.found);
+  result_.found.blobs.lost += local_blobs_.lost();
+  return true;
 }
 
 void Application::report(const Slot& slot) const {

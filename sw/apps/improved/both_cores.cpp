@@ -18,6 +18,7 @@ void add(marker::BlobCounts& sum, const marker::BlobCounts& more) {
   sum.small += more.small;
   for (std::uint32_t i = 0; i < sum.refused.size(); ++i) sum.refused[i] += more.refused[i];
   sum.lost += more.lost;
+  sum.background += more.background;
 }
 
 }  // namespace
