@@ -33,6 +33,12 @@ constexpr std::uint32_t coarse_crossings = 12;
 /// A corner that leaves its guess by more belongs to something else, px.
 constexpr double most_move = 6;
 
+/// Where edges scatter by more, px, they are measured less widely in the last pass: each pixel's
+/// noise costs more there than what is left of the blur (measured).
+constexpr double noisy = 0.06, narrow_share = 0.6;
+/// A grey level is the mean of at most so many pixels; in the last pass it shifts the side.
+constexpr std::uint32_t coarse_level_pixels = 64, level_pixels = 256, noisy_level_pixels = 1024;
+
 /// Where two lines meet, and how the corner moves with their offsets there.
 struct Meeting {
   Point corner;
@@ -94,6 +100,7 @@ Refusal improve(const Frame& frame, const QuadFitOptions& options, bool is_last,
   MARKERVP_COUNT(effort.passes);
   if (!is_convex_clockwise(fit.ideal)) return Refusal::shape;
   std::array<Side, 4> sides = sides_of(fit.ideal, fit.image);
+  const bool is_noisy = is_last && fit.raggedness > noisy;
   double transition = 0;
   std::array<EdgeLine, 4> lines{};
   fit.dark = fit.bright = fit.raggedness = 0;
@@ -106,10 +113,15 @@ Refusal improve(const Frame& frame, const QuadFitOptions& options, bool is_last,
       cell /= scale;
     }
     if (!(cell >= least_cell)) return Refusal::shape;
-    const double reach = std::min(most_reach * cell, std::max(fit.reach, pixel) + slack);
+    const double wanted = is_noisy ? narrow_share * fit.reach : fit.reach;
+    const double reach = std::min(most_reach * cell, std::max(wanted, pixel) + slack);
     const double depth =
         is_last ? std::min(std::max(cell - 2 * reach, least_depth), most_depth) : least_depth;
-    FitPass pass{reach, depth, is_last ? options.crossings : coarse_crossings, is_last};
+    FitPass pass{reach, depth, is_last ? options.crossings : coarse_crossings,
+                 is_noisy  ? noisy_level_pixels
+                 : is_last ? level_pixels
+                           : coarse_level_pixels,
+                 is_last};
     if constexpr (Frame::may_squeeze) {
       pass.reach *= scale;
       pass.depth *= scale;

@@ -18,8 +18,6 @@ namespace {
 
 // Internal to each source that includes this: neither's code depends on the other.
 
-/// A grey level is the mean of at most so many pixels; in the last pass it shifts the side.
-constexpr std::uint32_t level_pixels = 256, coarse_level_pixels = 64;
 /// A lens bends a side by less than a twentieth of a pixel on so many lines.
 constexpr double straight_lines = 32;
 constexpr std::uint32_t most_pieces = 64;
@@ -302,8 +300,7 @@ class SideFit {
     collect(path, pass);
     MARKERVP_ADD(effort_.strips, count_);
     if (!is_covered(count_, pass, options)) return Refusal::hidden;
-    const AllLevels levels = read_levels(pass.depth / side_.steepness,
-                                         pass.is_last ? level_pixels : coarse_level_pixels);
+    const AllLevels levels = read_levels(pass.depth / side_.steepness, pass.level_pixels);
     double least_contrast = options.minimum_contrast;
     if constexpr (Kind::of_a_level != 1) least_contrast *= Kind::of_a_level;
     if (!(levels.contrast() >= least_contrast)) return Refusal::contrast;
