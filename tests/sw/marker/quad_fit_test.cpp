@@ -163,7 +163,8 @@ BOOST_AUTO_TEST_CASE(a_rendered_marker) {
   BOOST_TEST(covariance(3, 7) == 0);
 }
 
-// Where pixels are noisy, strips are narrower: as wide as elsewhere, the mean would be LIMIT px.
+// Where pixels are noisy, strips are narrower: as wide as elsewhere, the mean would be 0.099 px
+// instead of 0.064.
 BOOST_AUTO_TEST_CASE(noisy_edges_are_measured_less_widely) {
   double sum = 0;
   constexpr unsigned pictures_drawn = 16;
@@ -181,7 +182,7 @@ BOOST_AUTO_TEST_CASE(noisy_edges_are_measured_less_widely) {
     sum += found.corner_error / pictures_drawn;
   }
   BOOST_TEST_MESSAGE("noisy edges: " << sum << " px");
-  BOOST_TEST(sum < 0.1);
+  BOOST_TEST(sum < 0.08);
 }
 
 // The far corner is bent by 34 px; the corners are found within 0.0051 px.
