@@ -32,6 +32,7 @@ struct QuadFitOptions {
   double maximum_raggedness = 0.4;  ///< px: deviation of a side's edge points from its line
   double minimum_coverage = 0.5;    ///< share of a side on which the edge must be seen
   std::uint32_t crossings = 256;    ///< of a side that are measured, 16 to 256: time for accuracy
+  double noisy = 0.06;              ///< px: sides that deviate by more are measured once more
 };
 
 /// Why a candidate is no marker, or `none`.

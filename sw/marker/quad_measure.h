@@ -33,9 +33,9 @@ constexpr std::uint32_t coarse_crossings = 12;
 /// A corner that leaves its guess by more belongs to something else, px.
 constexpr double most_move = 6;
 
-/// Where edges scatter by more, px, they are measured once more, less widely: each pixel's noise
-/// costs more there than what is left of the blur (measured).
-constexpr double noisy = 0.06, narrow_share = 0.6;
+/// Noisy edges are measured once more, less widely: each pixel's noise costs more there than what
+/// is left of the blur (measured).
+constexpr double narrow_share = 0.6;
 /// A grey level is the mean of at most so many pixels; in the last pass it shifts the side.
 constexpr std::uint32_t coarse_level_pixels = 64, level_pixels = 256, noisy_level_pixels = 1024;
 
@@ -159,7 +159,7 @@ template <class Frame>
 Refusal improve_last(const Frame& frame, const QuadFitOptions& options, FitEffort& effort,
                      QuadFit& fit) {
   const Refusal refusal = improve(frame, options, Pass::fine, effort, fit);
-  if (refusal != Refusal::none || !(fit.raggedness > noisy)) return refusal;
+  if (refusal != Refusal::none || !(fit.raggedness > options.noisy)) return refusal;
   return improve(frame, options, Pass::narrow, effort, fit);
 }
 
