@@ -44,7 +44,7 @@ class Application {
   Status read_packet(Slot& slot);
   void process(Slot& slot);
   void find_markers(const Slot& slot);
-  bool look_behind(const marker::CameraFrame& picture);
+  bool look_behind(const marker::CameraFrame& picture, const marker::BlobList& logic);
   void report(const Slot& slot) const;
 
   Capture capture_;
