@@ -62,6 +62,7 @@ KERNELS = {
     "outline": ["outline_looks", "outline_points", "outline_distances", "outline_samples",
                 "outline_fitted", "outline_meets", "outline_covers", "outlines"],
     "packet_sum": ["words_summed", "packets_summed"],
+    "local_blobs": ["local_pixels", "local_runs", "local_joins", "local_rows", "local_frames"],
     "blob_detection": ["blob_pixels", "blob_dark", "blob_runs", "blob_rows", "blob_label_checks",
                        "blob_rivals", "blob_labels", "blobs_ended", "blob_frames"],
 }

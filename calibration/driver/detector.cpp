@@ -121,7 +121,7 @@ void measure_detector(Random& random, std::uint32_t width, std::uint32_t height,
   measure(
       cold ? "quad_fit_cold" : "quad_fit",
       [&] {
-        for (Candidate& c : candidates) c.fit = marker::fit_quad({c.image, lens}, c.guess, {});
+        for (Candidate& c : candidates) c.fit = marker::fit_quad({c.image, lens}, c.guess, once());
       },
       [&] {
         Checksum sum;

@@ -7,6 +7,7 @@
 
 #include <marker/geometry.h>
 #include <marker/images.h>
+#include <marker/quad_fit.h>
 #include <marker/work.h>
 
 #include "../plugin/marks.h"
@@ -53,6 +54,14 @@ class Checksum {
  private:
   std::uint32_t value_ = 2'166'136'261u;
 };
+
+/// Sides are measured once: the drawn squares have steps, which would be taken for noise, and what
+/// is read a second time is in the caches.
+inline marker::QuadFitOptions once() {
+  marker::QuadFitOptions options;
+  options.noisy = 1e9;
+  return options;
+}
 
 /// Only this kernel is measured; empty: all are.
 extern std::string only_kernel;

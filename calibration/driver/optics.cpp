@@ -5,6 +5,7 @@
 #include <marker/code_book.h>
 #include <marker/inner_edges.h>
 #include <marker/light_curves.h>
+#include <marker/local_blobs.h>
 #include <marker/optics.h>
 #include <marker/optics_fit.h>
 #include <marker/outline.h>
@@ -88,7 +89,7 @@ void measure_optics(Random& random, std::uint32_t width, std::uint32_t height) {
       "lit_fit",
       [&] {
         for (Candidate& c : candidates) {
-          c.levels = marker::refine_through_optics(c.frame, {}, c.fit);
+          c.levels = marker::refine_through_optics(c.frame, once(), c.fit);
         }
       },
       [&] {
@@ -130,6 +131,15 @@ void measure_optics(Random& random, std::uint32_t width, std::uint32_t height) {
       [&] {
         Checksum sum;
         for (const Candidate& c : candidates) sum.add(c.outline);
+        return sum;
+      });
+  static marker::LocalBlobs local;
+  marker::BlobList blobs{};
+  measure(
+      "local_blobs", [&] { blobs = local.find(scenes[0].image(), 9); },
+      [&] {
+        Checksum sum;
+        sum.add(blobs.count);
         return sum;
       });
 }

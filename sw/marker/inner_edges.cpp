@@ -19,6 +19,11 @@ constexpr double clear_share = 1.1 / 0.3, least_share = 2.2;
 constexpr double margin = 1.1;
 /// Fewer edges are not worth a number.
 constexpr std::uint32_t least_edges = 6;
+/// Edges farther than so many deviations from what half of them say are left out; of normal numbers
+/// half are within 0.67 deviations.
+constexpr double most_deviations = 2.5, deviation_of_median = 1.4826;
+/// An edge so near to the far side that a shift hardly moves it says nothing.
+constexpr double least_weight = 0.1;
 constexpr std::uint32_t most_edges = 2 * (max_code_cells + 1) * max_code_cells;
 
 /// An edge between two cells, as the marker's plane has it: half cells from the middle.
@@ -66,11 +71,11 @@ class InnerEdges {
       : frame_(frame), fit_(fit), levels_(levels), word_(word), cells_(cells), plane_(fit.ideal) {}
 
   InnerShift measure() {
-    look_at_all(clear_share);
+    look_at_all(clear_share, clear_share);
     const bool is_vague = edges_ < least_edges;
     if (is_vague) {
       edges_ = 0;
-      look_at_all(least_share);
+      look_at_all(least_share, 0);
     }
     work(Work::inner_cells, cells_seen_);
     work(Work::inner_edges, edges_seen_);
@@ -83,8 +88,10 @@ class InnerEdges {
   }
 
  private:
-  void look_at_all(double share) {
+  /// At edges of cells that are so wide across and along them, in reaches of a transition.
+  void look_at_all(double share, double along) {
     share_ = share;
+    along_ = along;
     for (std::uint32_t a = 0; a <= cells_; ++a) {
       for (std::uint32_t b = 1; b <= cells_; ++b) {
         look_at(b, a, false);
@@ -123,10 +130,10 @@ class InnerEdges {
     const Point from = see(edge.from), to = see(edge.to), beyond = see(edge.from + step);
     const Point span = to - from, cell = beyond - from;
     const double length = std::sqrt(dot(span, span));
-    if (!(length > 0)) return;
+    if (!(length > 0 && edge.from_middle < 1 - least_weight)) return;
     const Point across{span.y / length, -span.x / length};  // towards the next cell, or from it
     const double way = dot(cell, across), reach = fit_.reach;
-    if (!(std::abs(way) > share_ * reach)) return;
+    if (!(std::abs(way) > share_ * reach && length > 2 * half_edge * along_ * reach)) return;
     const bool by_rows = std::abs(span.y) >= std::abs(span.x);
     const double steepness = std::abs(by_rows ? across.x : across.y);
     const double per_step = by_rows ? cell.x : cell.y;
@@ -177,25 +184,45 @@ class InnerEdges {
     return std::abs(off) < half;
   }
 
-  /// Least squares: an edge is off by shift · weight towards the dark.
-  InnerShift solve() const {
+  /// Least squares: an edge is off by shift · weight towards the dark. Blurred cells pull some
+  /// edges far to one side, and more than they push to the other, so what is far from the median is
+  /// left out first.
+  InnerShift solve() {
     InnerShift found{};
+    if (edges_ < least_edges) return found;
+    std::array<double, most_edges> shifts, far;
+    for (std::uint32_t i = 0; i < edges_; ++i) shifts[i] = -offsets_[i].px / offsets_[i].weight;
+    const double middle = median_of(shifts);
+    for (std::uint32_t i = 0; i < edges_; ++i)
+      far[i] = std::abs(offsets_[i].px + middle * offsets_[i].weight);
+    const double most = most_deviations * deviation_of_median * median_of(far);
     double product = 0, square = 0;
+    std::uint32_t kept = 0;
     for (std::uint32_t i = 0; i < edges_; ++i) {
-      product += offsets_[i].weight * offsets_[i].px;
-      square += offsets_[i].weight * offsets_[i].weight;
+      const Offset edge = offsets_[i];
+      if (std::abs(edge.px + middle * edge.weight) > most) continue;
+      offsets_[kept++] = edge;
+      product += edge.weight * edge.px;
+      square += edge.weight * edge.weight;
     }
-    if (edges_ < least_edges || !(square > 0)) return found;
+    if (kept < 2 || !(square > 0)) return found;
     found.edges = edges_;
     found.shift = -product / square;
     double left = 0;
-    for (std::uint32_t i = 0; i < edges_; ++i) {
+    for (std::uint32_t i = 0; i < kept; ++i) {
       const double rest = offsets_[i].px + found.shift * offsets_[i].weight;
       left += rest * rest;
     }
-    found.variance = left / (edges_ - 1) / square;
+    found.variance = left / (kept - 1) / square;
     found.deviation = fit_.reach / reach_in_deviations;
     return found;
+  }
+
+  /// Of as many numbers as there are edges.
+  double median_of(std::array<double, most_edges> numbers) const {
+    const auto end = numbers.begin() + edges_, middle = numbers.begin() + edges_ / 2;
+    std::nth_element(numbers.begin(), middle, end);
+    return *middle;
   }
 
   const CameraFrame& frame_;
@@ -207,7 +234,7 @@ class InnerEdges {
   std::array<Offset, most_edges> offsets_;
   std::uint32_t edges_ = 0;
   std::uint32_t cells_seen_ = 0, edges_seen_ = 0, strips_ = 0, pixels_ = 0;  ///< work
-  double share_ = clear_share;
+  double share_ = clear_share, along_ = clear_share;
 };
 
 }  // namespace

@@ -70,6 +70,16 @@ bool is_cut(const Quad& quad, const GreyImage& image) {
   return false;
 }
 
+/// True if a blob is what is around the markers: its box has half of the picture, and reaches two
+/// of the picture's borders at least (decision).
+bool is_background(const Box& box, const GreyImage& image) {
+  const unsigned borders = (box.left == 0 ? 1 : 0) + (box.top == 0 ? 1 : 0) +
+                           (box.right == image.width ? 1 : 0) +
+                           (box.bottom == image.height ? 1 : 0);
+  return borders >= 2 &&
+         2 * (box.right - box.left) * (box.bottom - box.top) >= image.width * image.height;
+}
+
 /// The surroundings of a blob that are looked at.
 Box around(const Box& box, const GreyImage& image) {
   return {box.left - std::min(box.left, fetch_margin), box.top - std::min(box.top, fetch_margin),
@@ -95,7 +105,40 @@ CornerWeights own_weights(const QuadFit& fit) {
   return weights_of(own);
 }
 
+double variance_of(const QuadFit& fit) {
+  double sum = 0;
+  for (unsigned i = 0; i < 8; ++i) sum += fit.covariance[9 * i];
+  return sum;
+}
+
+/// True if all corners are within a quarter of a side.
+bool is_same_place(const Quad& one, const Quad& other) {
+  for (unsigned i = 0; i < 4; ++i) {
+    const Point off = other[i] - one[i], side = one[(i + 1) % 4] - one[i];
+    if (!(16 * dot(off, off) < dot(side, side))) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+void add_marker(const Detection& marker, Detections& found) {
+  for (std::uint32_t i = 0; i < found.count; ++i) {
+    Detection& other = found.markers[i];
+    if (other.marker.id != marker.marker.id ||
+        !is_same_place(other.marker.fit.image, marker.marker.fit.image)) {
+      continue;
+    }
+    ++found.blobs.refused[static_cast<std::uint32_t>(Refusal::twice)];
+    if (variance_of(marker.marker.fit) < variance_of(other.marker.fit)) other = marker;
+    return;
+  }
+  if (found.count == max_detections) {
+    ++found.blobs.lost;
+  } else {
+    found.markers[found.count++] = marker;
+  }
+}
 
 bool Board::find(std::uint32_t id, Places& places) const {
   switch (kind) {
@@ -116,10 +159,15 @@ void MarkerDetector::open(const Dictionary& dictionary, const DetectorOptions& o
 
 void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blobs,
                                   Detections& found) {
-  const FunctionScope scope(Function::marker_detection);
   clear(found);
+  add_markers(frame, blobs, found);
+}
+
+void MarkerDetector::add_markers(const CameraFrame& frame, const BlobList& blobs,
+                                 Detections& found) {
+  const FunctionScope scope(Function::marker_detection);
   BlobCounts& counts = found.blobs;
-  counts.received = blobs.count;
+  counts.received += blobs.count;
   work(Work::blobs_checked, blobs.count);
   CameraFrame near = frame;
   for (std::uint32_t i = 0; i < blobs.count; ++i) {
@@ -139,13 +187,11 @@ void MarkerDetector::find_markers(const CameraFrame& frame, const BlobList& blob
     const Refusal refusal = read_blob(near, extremes_of(words), marker);
     if (refusal != Refusal::none) {
       ++counts.refused[static_cast<std::uint32_t>(refusal)];
-    } else if (found.count == max_detections) {
-      ++counts.lost;
+      if (is_background(box, frame.image)) ++counts.background;
     } else {
-      Detection& detection = found.markers[found.count++];
+      Detection detection{};
       detection.marker = marker;
-      detection.pose.valid = false;
-      detection.motion = {};
+      add_marker(detection, found);
     }
   }
 }

@@ -46,6 +46,7 @@ struct BlobCounts {
   std::uint32_t small;
   std::array<std::uint32_t, refusal_count> refused;  ///< by Refusal
   std::uint32_t lost;                                ///< markers for which there was no room
+  std::uint32_t background;  ///< of those refused: what is around the markers
 };
 
 /// More markers of a frame are counted as lost.
@@ -91,6 +92,11 @@ inline void clear(Detections& found) {
   found.board_motion = {};
 }
 
+/// Adds a marker to those of the frame. Something that lies across a marker may cut it into two
+/// blobs, both of which lead to it: the one with the smaller variance stays, in the place of the
+/// first. Each blob is counted.
+void add_marker(const Detection& marker, Detections& found);
+
 /// From the blobs of a frame to its markers, and from those to poses.
 ///
 /// What a blob's words can decide is decided before a pixel is read: in a picture in DMA memory,
@@ -102,6 +108,9 @@ class MarkerDetector {
 
   /// Finds the markers; `found` has no poses yet. The words may hold anything.
   void find_markers(const CameraFrame& frame, const BlobList& blobs, Detections& found);
+
+  /// Finds further ones in other blobs of the same frame.
+  void add_markers(const CameraFrame& frame, const BlobList& blobs, Detections& found);
 
   /// Measures those markers once more, as the frame's optics are now: poses are to be found anew.
   void measure_again(const CameraFrame& frame, Detections& found) const;

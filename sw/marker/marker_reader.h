@@ -29,6 +29,7 @@ bool is_plain(const CellLook& look, double minimum_contrast);
 struct CellReading {
   std::uint32_t white_border;  ///< cells of the border that are not black
   std::uint64_t word;          ///< of the code, as in a Dictionary
+  double margin;  ///< of the least clear cell: 1 if it is as dark as `dark`, or as `bright`
 };
 
 /// A cell is black if it is nearer to the grey level `dark` than to `bright`.

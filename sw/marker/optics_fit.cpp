@@ -112,7 +112,7 @@ void find_through_optics(const CameraFrame& frame, const QuadFitOptions& options
   fit.reach = reach == FirstReach::narrow ? narrow_reach : first_reach;
   for (unsigned pass = 0; pass < most_passes; ++pass) {
     const Quad before = fit.image;
-    fit.refusal = improve(grey, options, false, effort, fit);
+    fit.refusal = improve(grey, options, Pass::coarse, effort, fit);
     if (fit.refusal == Refusal::none && !(farthest_move(fit.image, guess) <= most_move)) {
       fit.refusal = Refusal::shape;
     }
@@ -136,10 +136,10 @@ LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions
   const double dark = fit.dark, bright = fit.bright;
   for (unsigned pass = 0; pass < passes_in_light && fit.refusal == Refusal::none; ++pass) {
     const Quad before = fit.image;
-    fit.refusal = improve(light, in_light, false, effort, fit);
+    fit.refusal = improve(light, in_light, Pass::coarse, effort, fit);
     if (farthest_move(fit.image, before) <= still) break;
   }
-  if (fit.refusal == Refusal::none) fit.refusal = improve(light, in_light, true, effort, fit);
+  if (fit.refusal == Refusal::none) fit.refusal = improve_last(light, in_light, effort, fit);
   if (fit.refusal == Refusal::none && !(farthest_move(fit.image, found) <= most_move)) {
     fit.refusal = Refusal::shape;
   }

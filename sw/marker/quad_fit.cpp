@@ -85,7 +85,7 @@ void find_quad(const CameraFrame& frame, const QuadFitOptions& options, QuadFit&
   fit.reach = first_reach;
   for (unsigned pass = 0; pass < most_passes && fit.refusal == Refusal::none; ++pass) {
     const Quad before = fit.image;
-    fit.refusal = improve(frame, options, false, effort, fit);
+    fit.refusal = improve(frame, options, Pass::coarse, effort, fit);
     if (fit.refusal != Refusal::none) break;
     if (!(farthest_move(fit.image, guess) <= most_move)) fit.refusal = Refusal::shape;
     if (farthest_move(fit.image, before) <= settled) break;
@@ -99,7 +99,7 @@ void refine_quad(const CameraFrame& frame, const QuadFitOptions& options, QuadFi
   work(Work::quads_refined, 1);
   FitEffort effort;
   const Quad found = fit.image;
-  fit.refusal = improve(frame, options, true, effort, fit);
+  fit.refusal = improve_last(frame, options, effort, fit);
   if (fit.refusal == Refusal::none && !(farthest_move(fit.image, found) <= most_move)) {
     fit.refusal = Refusal::shape;
   }

@@ -32,6 +32,7 @@ struct QuadFitOptions {
   double maximum_raggedness = 0.4;  ///< px: deviation of a side's edge points from its line
   double minimum_coverage = 0.5;    ///< share of a side on which the edge must be seen
   std::uint32_t crossings = 256;    ///< of a side that are measured, 16 to 256: time for accuracy
+  double noisy = 0.06;              ///< px: sides that deviate by more are measured once more
 };
 
 /// Why a candidate is no marker, or `none`.
@@ -44,9 +45,10 @@ enum class Refusal : std::uint32_t {
   border,    ///< white cells in the black border
   plain,     ///< all of it is dark: it has no code
   unknown,   ///< its cells are no word of the dictionary
+  twice,     ///< a marker that another blob shows, too
 };
 
-inline constexpr std::uint32_t refusal_count = 8;
+inline constexpr std::uint32_t refusal_count = 9;
 
 constexpr const char* refusal_name(Refusal refusal) {
   switch (refusal) {
@@ -66,6 +68,8 @@ constexpr const char* refusal_name(Refusal refusal) {
       return "plain";
     case Refusal::unknown:
       return "unknown";
+    case Refusal::twice:
+      return "twice";
   }
   return "?";
 }

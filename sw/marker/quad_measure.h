@@ -33,6 +33,12 @@ constexpr std::uint32_t coarse_crossings = 12;
 /// A corner that leaves its guess by more belongs to something else, px.
 constexpr double most_move = 6;
 
+/// Noisy edges are measured once more, less widely: each pixel's noise costs more there than what
+/// is left of the blur (measured).
+constexpr double narrow_share = 0.6;
+/// A grey level is the mean of at most so many pixels; in the last pass it shifts the side.
+constexpr std::uint32_t coarse_level_pixels = 64, level_pixels = 256, noisy_level_pixels = 1024;
+
 /// Where two lines meet, and how the corner moves with their offsets there.
 struct Meeting {
   Point corner;
@@ -81,6 +87,9 @@ void fill_covariance(const std::array<Side, 4>& sides, const std::array<EdgeLine
   }
 }
 
+/// A few crossings of each side; all of them; and all of them where there is noise.
+enum class Pass : std::uint32_t { coarse, fine, narrow };
+
 /// Of the border, behind which the code may begin, px.
 double cell_at(const Side& side, const QuadFitOptions& options) {
   return side.height / options.cells;
@@ -89,11 +98,12 @@ double cell_at(const Side& side, const QuadFitOptions& options) {
 /// One pass: the sides around `fit.ideal`, and the corners anew. `Frame` says what a pixel is read
 /// as and what the lens is; LitFrame's may squeeze the picture.
 template <class Frame>
-Refusal improve(const Frame& frame, const QuadFitOptions& options, bool is_last, FitEffort& effort,
+Refusal improve(const Frame& frame, const QuadFitOptions& options, Pass which, FitEffort& effort,
                 QuadFit& fit) {
   MARKERVP_COUNT(effort.passes);
   if (!is_convex_clockwise(fit.ideal)) return Refusal::shape;
   std::array<Side, 4> sides = sides_of(fit.ideal, fit.image);
+  const bool is_last = which != Pass::coarse;
   double transition = 0;
   std::array<EdgeLine, 4> lines{};
   fit.dark = fit.bright = fit.raggedness = 0;
@@ -106,10 +116,15 @@ Refusal improve(const Frame& frame, const QuadFitOptions& options, bool is_last,
       cell /= scale;
     }
     if (!(cell >= least_cell)) return Refusal::shape;
-    const double reach = std::min(most_reach * cell, std::max(fit.reach, pixel) + slack);
+    const double wanted = which == Pass::narrow ? narrow_share * fit.reach : fit.reach;
+    const double reach = std::min(most_reach * cell, std::max(wanted, pixel) + slack);
     const double depth =
         is_last ? std::min(std::max(cell - 2 * reach, least_depth), most_depth) : least_depth;
-    FitPass pass{reach, depth, is_last ? options.crossings : coarse_crossings, is_last};
+    FitPass pass{reach, depth, is_last ? options.crossings : coarse_crossings,
+                 which == Pass::narrow ? noisy_level_pixels
+                 : is_last             ? level_pixels
+                                       : coarse_level_pixels,
+                 is_last};
     if constexpr (Frame::may_squeeze) {
       pass.reach *= scale;
       pass.depth *= scale;
@@ -137,6 +152,15 @@ Refusal improve(const Frame& frame, const QuadFitOptions& options, bool is_last,
   if (is_last) fill_covariance(sides, lines, corners, fit.covariance);
   if (!is_last) fit.reach = reach_in_deviations * std::sqrt(transition);
   return is_convex_clockwise(fit.ideal) ? Refusal::none : Refusal::shape;
+}
+
+/// The last pass, and another one if there is noise.
+template <class Frame>
+Refusal improve_last(const Frame& frame, const QuadFitOptions& options, FitEffort& effort,
+                     QuadFit& fit) {
+  const Refusal refusal = improve(frame, options, Pass::fine, effort, fit);
+  if (refusal != Refusal::none || !(fit.raggedness > options.noisy)) return refusal;
+  return improve(frame, options, Pass::narrow, effort, fit);
 }
 
 /// The longest way from one of `guess` to the corner that it became, px.

@@ -16,6 +16,8 @@ constexpr double least_logarithm = -0.5, most_logarithm = 1.4;
 /// One marker's exponent scatters by this much around the camera's, whatever its edges say: 0.02 of
 /// a transition (measured).
 constexpr double marker_variance = 0.04 * 0.04;
+/// What edges say of a marker's exponent is not better than this, whatever they agree on.
+constexpr double least_edge_variance = 0.001 * 0.001;
 /// What is known weighs no more than so many markers: a camera whose curve changes is followed
 /// within 30 frames of ten (decision).
 constexpr double most_weight = 300 / marker_variance;
@@ -25,9 +27,12 @@ constexpr double settled_weight = 1 / (0.01 * 0.01);
 constexpr std::uint32_t most_looks = 4;
 /// So much of a change of the logarithm is worth another look: less than 0.01 of a transition.
 constexpr double worth_a_look = 0.015;
-/// Of a marker whose cells are blurred into each other the exponent is off by so much (measured).
-/// It counts where no other has been seen, and only if it says clearly that there is a curve.
-constexpr double vague_variance = 0.25 * 0.25, clear_logarithm = 0.3;
+/// Markers whose cells are blurred into each other say too low an exponent, by more the more their
+/// edges differ: up to the first number if their deviation is far above the second; and what is
+/// left is off by the third (measured). They count where no other has been seen, and only if they
+/// say clearly that there is a curve.
+constexpr double vague_bias = 0.16, vague_bias_deviation = 0.006, vague_variance = 0.1 * 0.1;
+constexpr double clear_logarithm = 0.3, clear_deviations = 2;
 /// A marker that is farther off than this, in transitions, is not one of this curve: a reflection,
 /// or a shadow.
 constexpr double most_shift = 0.8;
@@ -81,7 +86,7 @@ void ResponseFinder::add(const InnerShift& seen) {
   constexpr double slope = shift_of_logarithm;
   const double of_edges = variance / (slope * slope);
   if (seen.is_vague) {
-    const double weight = 1 / (of_edges + vague_variance);
+    const double weight = 1 / (of_edges + least_edge_variance);
     vague_ += weight * (table_logarithm_ + shift / slope);
     vague_weight_ += weight;
     return;
@@ -96,10 +101,14 @@ void ResponseFinder::add(const InnerShift& seen) {
 
 bool ResponseFinder::end_look() {
   ++looks_;
-  if (markers_ == 0 && before_weight_ == 0 && vague_weight_ > 0 &&
-      vague_ > clear_logarithm * vague_weight_) {
-    sum_ = vague_;
-    sum_weight_ = vague_weight_;
+  if (markers_ == 0 && before_weight_ == 0 && vague_weight_ > 0) {
+    const double deviation = 1 / std::sqrt(vague_weight_);
+    const double logarithm =
+        vague_ / vague_weight_ + vague_bias * deviation / (deviation + vague_bias_deviation);
+    if (logarithm > clear_logarithm + clear_deviations * deviation) {
+      sum_weight_ = 1 / (deviation * deviation + vague_variance);
+      sum_ = sum_weight_ * logarithm;
+    }
   }
   if (!(sum_weight_ > 0)) return false;
   weight_ = before_weight_ + sum_weight_;

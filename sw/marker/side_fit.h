@@ -45,9 +45,10 @@ struct EdgeLine {
 
 /// How a pass measures the sides.
 struct FitPass {
-  double reach, depth;      ///< px across the edge
-  std::uint32_t crossings;  ///< of a side, at most
-  bool is_last;             ///< the transition is no longer needed
+  double reach, depth;         ///< px across the edge
+  std::uint32_t crossings;     ///< of a side, at most
+  std::uint32_t level_pixels;  ///< whose mean is a grey level, at most
+  bool is_last;                ///< the transition is no longer needed
 };
 
 /// An edge is measured so many standard deviations of its transition to both sides, but not less

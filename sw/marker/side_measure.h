@@ -18,13 +18,15 @@ namespace {
 
 // Internal to each source that includes this: neither's code depends on the other.
 
-/// A grey level is the mean of at most so many pixels; in the last pass it shifts the side.
-constexpr std::uint32_t level_pixels = 256, coarse_level_pixels = 64;
 /// A lens bends a side by less than a twentieth of a pixel on so many lines.
 constexpr double straight_lines = 32;
 constexpr std::uint32_t most_pieces = 64;
 /// Points farther out than any picture reaches are not followed, px.
 constexpr double farthest = 16384;
+
+/// A side that scatters by more may have something over a corner, px: by so much of its crossings
+/// at either end, whose scatter is less than this share of all (measured).
+constexpr double ragged_scatter = 0.1, hidden_end = 0.2, clear_scatter = 0.5;
 
 /// Coordinates of a point along the strips of a side, and from strip to strip.
 double along_strip(const Side& side, Point p) {
@@ -298,8 +300,7 @@ class SideFit {
     collect(path, pass);
     MARKERVP_ADD(effort_.strips, count_);
     if (!is_covered(count_, pass, options)) return Refusal::hidden;
-    const AllLevels levels = read_levels(pass.depth / side_.steepness,
-                                         pass.is_last ? level_pixels : coarse_level_pixels);
+    const AllLevels levels = read_levels(pass.depth / side_.steepness, pass.level_pixels);
     double least_contrast = options.minimum_contrast;
     if constexpr (Kind::of_a_level != 1) least_contrast *= Kind::of_a_level;
     if (!(levels.contrast() >= least_contrast)) return Refusal::contrast;
@@ -311,9 +312,10 @@ class SideFit {
     double rounding = pixels / 12 * per_level * per_level;
     if constexpr (Kind::of_a_level != 1) rounding *= Kind::of_a_level * Kind::of_a_level;
     line = fit_line(crossings_.data(), located, rounding);
+    if (line.scatter > ragged_scatter) leave_ends_out(located, rounding, line);
     const double limit = line.scatter > 0.02 ? 3 * line.scatter : 0.06;
     const std::uint32_t kept = keep_near(crossings_.data(), located, line, limit);
-    if (kept < least_crossings) return Refusal::ragged;
+    if (!is_covered(kept, pass, options)) return Refusal::ragged;
     if (kept < located) {
       MARKERVP_ADD(effort_.refitted, kept);
       line = fit_line(crossings_.data(), kept, rounding);
@@ -435,6 +437,17 @@ class SideFit {
     c.along = dot(off, side_.along);
     c.outward = dot(off, side_.outward);
     return true;
+  }
+
+  /// What hides a corner pulls the ends of both its sides. Where the inner crossings lie much
+  /// nearer to a line of their own than all do to theirs, that line counts.
+  void leave_ends_out(std::uint32_t located, double rounding, EdgeLine& line) {
+    const auto end = static_cast<std::uint32_t>(hidden_end * located);
+    const std::uint32_t inner = located - 2 * end;
+    if (inner < least_crossings) return;
+    MARKERVP_ADD(effort_.refitted, inner);
+    const EdgeLine own = fit_line(crossings_.data() + end, inner, rounding);
+    if (own.scatter < clear_scatter * line.scatter) line = own;
   }
 
   /// The variance of a transition is twice its moment.

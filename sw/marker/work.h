@@ -103,7 +103,12 @@
   X(outline_meets, "two lines: do they meet?")                                                \
   X(outline_covers, "four pieces that meet: do they cover their sides?")                      \
   X(packets_summed, "a packet whose checksum is looked at, of any length")                    \
-  X(words_summed, "a word of it")
+  X(words_summed, "a word of it")                                                             \
+  X(local_frames, "a picture searched with a threshold of each pixel's own")                  \
+  X(local_rows, "a row of it")                                                                \
+  X(local_pixels, "a pixel held against the mean around it")                                  \
+  X(local_runs, "dark pixels beside each other, added to their blob")                         \
+  X(local_joins, "two blobs that turn out to be one")
 
 /// The functions that PS programs annotate, as in traces and reports. The order is that of
 /// hal_program.functions.

@@ -53,6 +53,7 @@ const std::vector<Kernel>& kernels() {
        {"outlines", "outline_samples", "outline_looks", "outline_points", "outline_distances",
         "outline_fitted", "outline_meets", "outline_covers"}},
       {"packet_sum", {"packets_summed", "words_summed"}},
+      {"local_blobs", {"local_frames", "local_rows", "local_pixels", "local_runs", "local_joins"}},
       {"blob_detection",
        {"blob_frames", "blob_rows", "blob_pixels", "blob_dark", "blob_runs", "blob_rivals",
         "blob_labels", "blob_label_checks", "blobs_ended"}},

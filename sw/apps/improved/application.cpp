@@ -6,6 +6,8 @@
 #include <blob_stream.h>
 #include <marker_logic.h>
 
+#include <cstdlib>
+
 namespace improved {
 namespace {
 
@@ -23,6 +25,28 @@ constexpr bool is_legal_size(const hal_frame& frame) {
   return marker_logic::min_width <= frame.width && frame.width <= marker_logic::max_width &&
          marker_logic::min_height <= frame.height && frame.height <= marker_logic::max_height &&
          picture_bytes(frame) % blob_stream::bytes_per_word == 0;
+}
+
+/// True if the logic has a blob with the same box, but for a few pixels: it was looked at.
+bool has_blob_at(const marker::BlobList& logic, const std::uint32_t* blob) {
+  constexpr std::int32_t most_off = 3;  // px: less than a corner may be off its guess (decision)
+  const auto is_near = [](std::uint32_t one, std::uint32_t other) {
+    return std::abs(static_cast<std::int32_t>(one) - static_cast<std::int32_t>(other)) <= most_off;
+  };
+  for (std::uint32_t i = 0; i < logic.count; ++i) {
+    const std::uint32_t* const own = logic.words + i * blob_stream::words_per_blob;
+    const auto has_same = [&](blob_stream::Extreme which,
+                              std::uint32_t (*coordinate)(std::uint32_t)) {
+      return is_near(coordinate(own[which]), coordinate(blob[which]));
+    };
+    if (has_same(blob_stream::least_x, blob_stream::x) &&
+        has_same(blob_stream::greatest_x, blob_stream::x) &&
+        has_same(blob_stream::least_y, blob_stream::y) &&
+        has_same(blob_stream::greatest_y, blob_stream::y)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -163,6 +187,7 @@ void Application::find_markers(const Slot& slot) {
   // Both cores found the poses of single markers.
   bool needs_poses =
       !options_.second_core || options_.detector.board.kind != marker::Board::Kind::none;
+  if (look_behind(picture, slot.blobs)) needs_poses = true;
   while (optics_.learn(result_.found)) {
     detector_.measure_again(picture, result_.found);
     needs_poses = true;
@@ -173,6 +198,23 @@ void Application::find_markers(const Slot& slot) {
     pose_filter_.follow(result_.found, static_cast<double>(slot.started) * seconds_per_count_);
   }
   times.pose.end = times.frame.end = capture_.now();
+}
+
+/// Where the background is so dark that the logic takes it and the markers for one blob, the
+/// software parts them by a threshold of each pixel's own. True if it did.
+bool Application::look_behind(const marker::CameraFrame& picture, const marker::BlobList& logic) {
+  if (result_.found.blobs.background == 0) return false;
+  if (picture.optics == nullptr || !picture.optics->reads_outlines) return false;
+  const marker::GreyImage& image = picture.image;
+  hal_cache_invalidate(const_cast<std::uint8_t*>(image.pixels),
+                       std::size_t{image.width} * image.height);
+  const marker::BlobList blobs = local_blobs_.find(image, options_.detector.minimum_side);
+  for (std::uint32_t i = 0; i < blobs.count; ++i) {
+    const std::uint32_t* const blob = blobs.words + i * blob_stream::words_per_blob;
+    if (!has_blob_at(logic, blob)) detector_.add_markers(picture, {blob, 1}, result_.found);
+  }
+  result_.found.blobs.lost += local_blobs_.lost();
+  return true;
 }
 
 void Application::report(const Slot& slot) const {

@@ -8,6 +8,7 @@
 #include <hal/hal.h>
 #include <marker/blob_packet.h>
 #include <marker/detection_result.h>
+#include <marker/local_blobs.h>
 #include <marker/marker_detector.h>
 #include <marker/pose_filter.h>
 
@@ -43,6 +44,7 @@ class Application {
   Status read_packet(Slot& slot);
   void process(Slot& slot);
   void find_markers(const Slot& slot);
+  bool look_behind(const marker::CameraFrame& picture, const marker::BlobList& logic);
   void report(const Slot& slot) const;
 
   Capture capture_;
@@ -57,6 +59,7 @@ class Application {
   double seconds_per_count_;  ///< of the global timer; with the filter only
   BothCores both_cores_;
   FrameOptics optics_;
+  marker::LocalBlobs local_blobs_;
   marker::DetectionResult result_;
 };
 

@@ -18,6 +18,7 @@ void add(marker::BlobCounts& sum, const marker::BlobCounts& more) {
   sum.small += more.small;
   for (std::uint32_t i = 0; i < sum.refused.size(); ++i) sum.refused[i] += more.refused[i];
   sum.lost += more.lost;
+  sum.background += more.background;
 }
 
 }  // namespace
@@ -103,12 +104,7 @@ void BothCores::merge(marker::Detections& found) const {
   for (const Part& part : parts_) add(found.blobs, part.blobs);
   while (left(0) || left(1)) {
     const bool second = !left(0) || (left(1) && parts_[1].pieces[at[1]] < parts_[0].pieces[at[0]]);
-    const marker::Detection& next = parts_[second].markers[at[second]++];
-    if (found.count == marker::max_detections) {
-      ++found.blobs.lost;
-    } else {
-      found.markers[found.count++] = next;
-    }
+    marker::add_marker(parts_[second].markers[at[second]++], found);
   }
 }
 

@@ -57,8 +57,14 @@ std::uint32_t FrameOptics::response_of(const hal_frame& frame) const {
   }
 }
 
+Tries FrameOptics::tries_of(const hal_frame& frame) const {
+  if (options_.tries != Tries::camera) return options_.tries;
+  return frame.response == HAL_RESPONSE_LINEAR ? Tries::one : Tries::outlines;
+}
+
 const marker::Optics* FrameOptics::begin(const hal_frame& frame) {
   const std::uint32_t response = response_of(frame);
+  const Tries tries = tries_of(frame);
   learns_ = false;
   use_ = {response != HAL_RESPONSE_LINEAR, marker::ResponseOrigin::given, 0};
   if (options_.response == ResponseChoice::exponent) use_.exponent = options_.exponent;
@@ -66,8 +72,8 @@ const marker::Optics* FrameOptics::begin(const hal_frame& frame) {
   optics_.lens.camera = {frame.fx, frame.fy, frame.cx, frame.cy};
   optics_.lens.model = static_cast<marker::LensModel>(frame.lens_model);
   std::copy_n(frame.distortion, coefficients, optics_.lens.coefficients.begin());
-  optics_.tries_again = options_.tries != Tries::one;
-  optics_.reads_outlines = options_.tries == Tries::outlines;
+  optics_.tries_again = tries != Tries::one;
+  optics_.reads_outlines = tries == Tries::outlines;
   optics_.light = marker::linear_light();
   if (response == HAL_RESPONSE_TABLE) {
     optics_.light = options_.response == ResponseChoice::camera ? frame.light : given_.data();
@@ -81,8 +87,8 @@ const marker::Optics* FrameOptics::begin(const hal_frame& frame) {
     if (learns_) finder_.begin_frame();
     follow_finder();
   }
-  const bool is_plain = frame.lens_model == HAL_LENS_BROWN_CONRADY &&
-                        options_.tries == Tries::one && response == HAL_RESPONSE_LINEAR;
+  const bool is_plain = frame.lens_model == HAL_LENS_BROWN_CONRADY && tries == Tries::one &&
+                        response == HAL_RESPONSE_LINEAR;
   return is_plain ? nullptr : &optics_;
 }
 

@@ -14,7 +14,8 @@ namespace improved {
 enum class ResponseChoice : std::uint32_t { camera, linear, srgb, rec709, exponent, found };
 
 /// What is done about a blob that is refused: the option `tries`.
-enum class Tries : std::uint32_t { one, nearer, outlines };
+/// `camera`: outlines, but one where levels are known to be light, as in scenes.
+enum class Tries : std::uint32_t { camera, one, nearer, outlines };
 
 struct OpticsOptions {
   ResponseChoice response;
@@ -39,6 +40,7 @@ class FrameOptics {
 
  private:
   std::uint32_t response_of(const hal_frame& frame) const;
+  Tries tries_of(const hal_frame& frame) const;
   void follow_finder();
 
   OpticsOptions options_;

@@ -41,6 +41,15 @@ const CameraFrame& one_marker() {
   return frame;
 }
 
+/// The same picture where the logic takes all of it for one blob.
+CameraFrame on_dark_background() {
+  CameraFrame frame = ten_markers();
+  const auto corner = blob_stream::point(639, 479), right = blob_stream::point(639, 0),
+             down = blob_stream::point(0, 479);
+  frame.packet = {0, right, right, corner, down, down, 0, 0, 0, 1, 0, 127};
+  return frame;
+}
+
 struct Fixture {
   Fixture() {
     auto& options = fake_hal::state().options;
@@ -262,6 +271,33 @@ BOOST_AUTO_TEST_CASE(frames_without_blobs_are_results) {
   BOOST_TEST(run() == 0);
   BOOST_TEST((result(0).status == Status::ok));
   BOOST_TEST(result(0).found.blobs.received == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(markers_on_a_dark_background_are_parted_from_it) {
+  set("tries", 3);
+  show({on_dark_background()});
+  run();
+  const DetectionResult& found = result(0);
+  BOOST_TEST(found.found.count == 10u);
+  BOOST_TEST(found.found.blobs.background == 1u);
+  for (std::uint32_t i = 0; i < found.found.count; ++i)
+    BOOST_TEST(found.found.markers[i].pose.valid);
+}
+
+BOOST_AUTO_TEST_CASE(without_outlines_a_dark_background_hides_its_markers) {
+  set("tries", 2);
+  show({on_dark_background()});
+  run();
+  BOOST_TEST(result(0).found.count == 0u);
+  BOOST_TEST(result(0).found.blobs.background == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(outlines_are_for_pictures_of_a_camera) {
+  show({on_dark_background(), on_dark_background()});
+  fake_hal::state().frames[0].response = HAL_RESPONSE_UNKNOWN;
+  run();
+  BOOST_TEST(result(0).found.count == 10u, "a camera's");
+  BOOST_TEST(result(1).found.count == 0u, "levels that are light, as a scene's");
 }
 
 BOOST_AUTO_TEST_CASE(a_silent_camera_times_out_and_the_next_frame_recovers) {

@@ -294,6 +294,29 @@ BOOST_AUTO_TEST_CASE(of_more_markers_than_there_is_room_for_the_rest_is_counted)
   BOOST_TEST(found->blobs.lost == 300 - marker::max_detections);
 }
 
+BOOST_AUTO_TEST_CASE(of_a_marker_in_two_blobs_the_better_one_stays) {
+  const auto seen = [](std::uint16_t id, double left, double variance) {
+    marker::Detection marker{};
+    marker.marker.id = id;
+    marker.marker.fit.image = {{{left, 0}, {left + 40, 0}, {left + 40, 40}, {left, 40}}};
+    marker.marker.fit.covariance[0] = variance;
+    return marker;
+  };
+  const auto twice = static_cast<std::size_t>(Refusal::twice);
+  marker::clear(*found);
+  marker::add_marker(seen(7, 100, 0.02), *found);
+  marker::add_marker(seen(7, 108, 0.01), *found);
+  BOOST_TEST_REQUIRE(found->count == 1u);
+  BOOST_TEST(found->markers[0].marker.fit.image[0].x == 108);
+  marker::add_marker(seen(7, 104, 0.02), *found);
+  BOOST_TEST(found->markers[0].marker.fit.image[0].x == 108);
+  BOOST_TEST(found->blobs.refused[twice] == 2u);
+  marker::add_marker(seen(8, 104, 0.01), *found);  // another marker, or a wrong ID
+  marker::add_marker(seen(7, 119, 0.01), *found);  // another place
+  BOOST_TEST(found->count == 3u);
+  BOOST_TEST(found->blobs.refused[twice] == 2u);
+}
+
 BOOST_AUTO_TEST_CASE(a_marker_that_the_border_cuts_is_refused) {
   GreyImage whole = empty_picture(120, 120);
   draw_marker(whole, 7, 50, 50);

@@ -119,6 +119,31 @@ BOOST_AUTO_TEST_CASE(a_black_square_is_no_marker) {
   BOOST_TEST(detect(drawn(dictionary, 0xFFEF)) == Refusal::unknown);
 }
 
+// Chance makes words of 4x4 cells: a cell that may be either is none of theirs.
+BOOST_AUTO_TEST_CASE(a_cell_between_black_and_white_is_no_word_of_small_dictionaries) {
+  const auto with_grey_cell = [](const Dictionary& dictionary, std::uint8_t level) {
+    std::vector<std::uint8_t> pixels = drawn(dictionary, dictionary.words[5]);
+    for (std::uint32_t row = 1; row <= dictionary.cells; ++row) {
+      for (std::uint32_t column = 1; column <= dictionary.cells; ++column) {
+        const std::uint32_t y = left + row * cell, x = left + column * cell;
+        if (pixels[y * picture_side + x] != 220) continue;
+        for (std::uint32_t i = 0; i < cell * cell; ++i)
+          pixels[(y + i / cell) * picture_side + x + i % cell] = level;
+        return pixels;
+      }
+    }
+    BOOST_FAIL("no white cell");
+    return pixels;
+  };
+  const Dictionary& small = open("4x4_250");
+  BOOST_TEST(detect(with_grey_cell(small, 220)) == Refusal::none);
+  BOOST_TEST(detect(with_grey_cell(small, 150)) == Refusal::none);
+  BOOST_TEST(detect(with_grey_cell(small, 130)) == Refusal::unknown);
+  const Dictionary& large = open("6x6_250");
+  BOOST_TEST(detect(with_grey_cell(large, 130)) == Refusal::none);
+  BOOST_TEST(found.id == 5u);
+}
+
 // What is no quadrilateral is no word.
 BOOST_AUTO_TEST_CASE(refused_before_a_word_is_looked_up) {
   const Dictionary& dictionary = open("4x4_50");
