@@ -187,7 +187,7 @@ void Application::find_markers(const Slot& slot) {
   // Both cores found the poses of single markers.
   bool needs_poses =
       !options_.second_core || options_.detector.board.kind != marker::Board::Kind::none;
-  if (look_behind(picture, slot.blobs)) needs_poses = true;
+  if (look_behind(picture, slot.packet.blobs)) needs_poses = true;
   while (optics_.learn(result_.found)) {
     detector_.measure_again(picture, result_.found);
     needs_poses = true;
