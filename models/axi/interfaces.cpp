@@ -42,10 +42,18 @@ std::optional<Split> split(const std::string& port) {
   return Split{match[1], small(match[2])};
 }
 
-std::size_t common_length(const std::string& a, const std::string& b) {
-  std::size_t length = 0;
-  while (length < std::min(a.size(), b.size()) && a[length] == b[length]) ++length;
-  return length;
+/// How much two names begin alike: whole words first, as s00_axi is nearer to s00_axi_aclk than to
+/// s00_axis_aclk, then characters.
+std::pair<std::size_t, std::size_t> common_start(const std::string& a, const std::string& b) {
+  std::size_t words = 0, length = 0;
+  const auto ends = [&](const std::string& name) {
+    return length == name.size() || name[length] == '_';
+  };
+  for (; length < std::min(a.size(), b.size()) && a[length] == b[length]; ++length) {
+    if (a[length] == '_') ++words;
+  }
+  if (length > 0 && ends(a) && ends(b)) ++words;
+  return {words, length};
 }
 
 bool of_stream(const std::string& signal) {
@@ -242,8 +250,12 @@ bool Finder::is_low(const std::string& name, const std::string& said) const {
   if (says(said, "low") || says(said, "high")) return says(said, "low");
   const std::string polarity = small(parameter(note("parameter", name), "POLARITY"));
   if (!polarity.empty()) return polarity == "active_low";
-  for (const char* end : {"resetn", "rstn", "rst_n", "reset_n", "rst_ni"}) {
+  for (const char* end : {"resetn", "rstn", "rst_n", "reset_n", "rst_ni", "reset_ni"}) {
     if (ends_with(small(name), end)) return true;
+  }
+  // ARESETn without its n, and what high-level synthesis calls a reset that is high.
+  for (const char* end : {"areset", "ap_rst"}) {
+    if (ends_with(small(name), end)) return false;
   }
   const auto* place = std::find_if(rtl_.ports, rtl_.ports + rtl_.port_count,
                                    [&](const RtlPort& port) { return port.name == name; });
@@ -258,7 +270,8 @@ Interface Finder::single(std::uint32_t number) const {
   static const std::regex clock("(.*_)?(clk|clkin|clock(_.*)?|aclk|aclkin|clk_i)|.*_aclk",
                                 std::regex::icase);
   static const std::regex reset(
-      "(.*_)?(aresetn|axi_resetn|reset(_.*)?|resetin|resetn|rst|rst_n|rstin|rstn|rst_i|rst_ni)",
+      "(.*_)?(areset|aresetn|axi_resetn|reset(_.*)?|resetin|resetn|rst|rst_n|rstin|rstn|rst_i|rst_"
+      "ni)",
       std::regex::icase);
   static const std::regex interrupt("interrupt|irq|intr|introut|.*_(irq|intr|introut|interrupt)",
                                     std::regex::icase);
@@ -324,10 +337,10 @@ void Finder::find_clock(Interface& interface) const {
     return;
   }
   std::vector<std::string> best, associated;
-  std::size_t longest = 0;
+  std::pair<std::size_t, std::size_t> longest;
   for (const std::string& name : names) {
     if (is_associated(name, interface.name)) associated.push_back(name);
-    const std::size_t common = common_length(small(name), small(interface.name));
+    const auto common = common_start(small(name), small(interface.name));
     if (common > longest) best.clear();
     if (common >= longest) best.push_back(name);
     longest = std::max(longest, common);

@@ -379,4 +379,41 @@ BOOST_FIXTURE_TEST_CASE(vhdl_keeps_its_defaults_and_its_names, kit::Simulation) 
   });
   BOOST_TEST(pulses == "010010010");
 }
+
+BOOST_FIXTURE_TEST_CASE(vhdl_keeps_its_wide_constants, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  kit::BusMaster script("script");
+  kit::MemoryTarget nothing("nothing", 4);
+  script.socket.bind(nothing.socket);
+  vp::Signal<std::uint8_t> choose("choose");
+  vp::Signal<std::uint32_t> value("value");
+  axi::RtlPart part("part", MARKERVP_WIDE_RTL, {{"clk", &clock}});
+  part.input("choose", choose);
+  part.input("value", value);
+  auto& sum = part.output<std::uint64_t>("sum");
+  auto& chosen = part.output<std::uint64_t>("chosen");
+  auto& count = part.output<std::uint64_t>("count");
+  auto& same = part.output<bool>("same");
+  const std::vector<std::uint64_t> choices{
+      0x0123'4567'89AB'CDEF, 0x7'0000'0000,         0x8000'0000'0000'0000, 0,
+      ~std::uint64_t{0},     0xFFFF'FFFF'FFFF'0001, 0x5'0000'0000,         0x5'0000'0000};
+  script.simulate([&] {
+    script.wait_until(15'000);
+    BOOST_TEST(sum == 0x8000'0000'0000'0001);
+    BOOST_TEST(!same);
+    value = 0xFFFF'0001;
+    BOOST_TEST(sum == 0x8000'0000'FFFF'0002);
+    BOOST_TEST(same);
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      choose = static_cast<std::uint8_t>(i);
+      BOOST_TEST(chosen == choices[i]);
+    }
+    const std::uint64_t before = count;
+    sc_core::wait(20, sc_core::SC_NS);
+    constexpr std::uint64_t bits = 0xFFFF'FFFF'FFFF, start = 0xFFFF'FFFF'FFF0, step = 0x1'0000'0001;
+    BOOST_TEST(count == ((before + 2 * step) & bits));
+    BOOST_TEST(((before - start) & bits) % step == 0u);
+  });
+}
 #endif
