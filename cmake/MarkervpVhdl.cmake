@@ -219,6 +219,7 @@ endfunction()
 # Writes what GHDL makes of the sources into ${FILE}.verilog and ${FILE}.vhdl.
 function(markervp_vhdl_synthesise STANDARD SOURCES ERRORS)
   set(generics "${GENERICS}")
+  list(TRANSFORM generics REPLACE "=[bB]?\"([01]+)\"$" "=\\1")  # as GHDL takes a vector
   list(TRANSFORM generics PREPEND -g)
   set(options --std=${STANDARD} "--workdir=${FILE}.library" "-P${FILE}.library" -fsynopsys -frelaxed ${OPTIONS})
   markervp_vhdl_libraries(libraries ${SOURCES})

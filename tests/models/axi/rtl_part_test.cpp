@@ -395,11 +395,13 @@ BOOST_FIXTURE_TEST_CASE(vhdl_keeps_its_wide_constants, kit::Simulation) {
   auto& chosen = part.output<std::uint64_t>("chosen");
   auto& count = part.output<std::uint64_t>("count");
   auto& same = part.output<bool>("same");
+  auto& settings = part.output<std::uint64_t>("settings");
   const std::vector<std::uint64_t> choices{
       0x0123'4567'89AB'CDEF, 0x7'0000'0000,         0x8000'0000'0000'0000, 0,
       ~std::uint64_t{0},     0xFFFF'FFFF'FFFF'0001, 0x5'0000'0000,         0x5'0000'0000};
   script.simulate([&] {
     script.wait_until(15'000);
+    BOOST_TEST(settings == 0x1A'1000'0002);  // of generics that are no numbers
     BOOST_TEST(sum == 0x8000'0000'0000'0001);
     BOOST_TEST(!same);
     value = 0xFFFF'0001;

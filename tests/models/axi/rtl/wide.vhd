@@ -4,6 +4,11 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 
 entity wide is
+  generic (
+    enable : boolean := false;
+    base   : std_logic_vector(31 downto 0) := (others => '0');
+    bits   : std_logic_vector(3 downto 0) := "0000"
+  );
   port (
     clk, rst_n : in  std_logic;
     choose     : in  std_logic_vector(2 downto 0);
@@ -11,7 +16,8 @@ entity wide is
     sum        : out std_logic_vector(63 downto 0);
     chosen     : out std_logic_vector(63 downto 0);
     count      : out std_logic_vector(47 downto 0);
-    same       : out std_logic
+    same       : out std_logic;
+    settings   : out std_logic_vector(36 downto 0)
   );
 end entity;
 
@@ -24,6 +30,7 @@ begin
   sum <= std_logic_vector(whole + x"8000000000000001");
   same <= '1' when whole + one = x"3FF00000FFFF0001" else '0';
   count <= std_logic_vector(counted);
+  settings <= '1' & bits & base when enable else (others => '0');
 
   with choose select chosen <=
     x"0123456789ABCDEF" when "000",
