@@ -76,7 +76,8 @@ std::vector<std::string> required(const Interface& interface) {
 
 class Finder {
  public:
-  explicit Finder(const RtlDescriptor& rtl) : rtl_(rtl), owner_(rtl.port_count) {}
+  Finder(const RtlDescriptor& rtl, std::string option)
+      : rtl_(rtl), option_(std::move(option)), owner_(rtl.port_count) {}
 
   std::vector<Interface> find() {
     check_notes();
@@ -149,7 +150,8 @@ class Finder {
   bool is_associated(const std::string& clock, const std::string& name) const;
 
   const RtlDescriptor& rtl_;
-  std::vector<bool> owner_;  ///< the port belongs to an interface
+  const std::string option_;  ///< by which users say what a port is
+  std::vector<bool> owner_;   ///< the port belongs to an interface
   std::vector<Interface> found_;
 };
 
@@ -169,23 +171,22 @@ void Finder::check_notes() const {
       return whole == name || whole.rfind(name + "_", 0) == 0;
     };
     if (std::none_of(rtl_.ports, rtl_.ports + rtl_.port_count, belongs))
-      refuse(rtl_.place, std::string("INTERFACES speaks of '") + note.port + "', and module '" +
-                             rtl_.top + "' has no such port");
+      refuse(rtl_.place, option_ + " speaks of '" + note.port + "', and module '" + rtl_.top +
+                             "' has no such port");
     for (std::uint32_t k = 0; k < i; ++k) {
       if (std::string(rtl_.notes[k].what) == note.what && small(rtl_.notes[k].port) == name)
-        refuse(rtl_.place, std::string("INTERFACES speaks of '") + note.port +
-                               "' twice: say all of it in one place");
+        refuse(rtl_.place,
+               option_ + " speaks of '" + note.port + "' twice: say all of it in one place");
     }
     std::istringstream words(note.text);
     std::string clock;
     for (std::string word; words >> word;) {
       if (known_words().count(word) == 0)
-        refuse(rtl_.place, std::string("INTERFACES says '") + word + "' of '" + note.port +
-                               "': use " +
+        refuse(rtl_.place, option_ + " says '" + word + "' of '" + note.port + "': use " +
                                vp::one_of({known_words().begin(), known_words().end()}));
       if (word == "clock" && words >> word && !std::exchange(clock, word).empty())
-        refuse(rtl_.place, std::string("INTERFACES gives '") + note.port +
-                               "' more than one clock: each interface has one");
+        refuse(rtl_.place,
+               option_ + " gives '" + note.port + "' more than one clock: each interface has one");
     }
   }
 }
@@ -233,7 +234,7 @@ void Finder::classify(Interface& interface) const {
     if (interface.has(signal)) continue;
     refuse(shown.place, "half an interface: '" + interface.name + "' has '" + shown.name +
                             "' and lacks its signal '" + signal + "'; add the port, or say " +
-                            "INTERFACES \"" + interface.name + ": wire\"");
+                            option_ + " \"" + interface.name + ": wire\"");
   }
   for (const auto& [signal, number] : interface.ports) {
     const bool answers =
@@ -261,9 +262,9 @@ bool Finder::is_low(const std::string& name, const std::string& said) const {
                                    [&](const RtlPort& port) { return port.name == name; });
   refuse(place->place, "reset '" + name +
                            "' does not say at which level it resets: the vendor's "
-                           "tools take it for low, most sources mean high; say INTERFACES \"" +
-                           name + ": reset high\" or \"" + name + ": reset low\", or \"" + name +
-                           ": wire\" if it resets nothing");
+                           "tools take it for low, most sources mean high; say " +
+                           option_ + " \"" + name + ": reset high\" or \"" + name +
+                           ": reset low\", or \"" + name + ": wire\" if it resets nothing");
 }
 
 Interface Finder::single(std::uint32_t number) const {
@@ -331,7 +332,7 @@ void Finder::find_clock(Interface& interface) const {
   const std::string said = said_clock(note("interface", interface.name));
   if (!said.empty()) {
     if (std::find(names.begin(), names.end(), said) == names.end())
-      refuse(rtl_.place, "INTERFACES says that '" + interface.name + "' belongs to clock '" + said +
+      refuse(rtl_.place, option_ + " says that '" + interface.name + "' belongs to clock '" + said +
                              "', which the RTL does not have");
     interface.clock = said;
     return;
@@ -351,11 +352,10 @@ void Finder::find_clock(Interface& interface) const {
                          interface.kind == Kind::axi_stream;
   if (!interface.clock.empty() || !needs_one) return;
   refuse(port(first_port(interface)).place,
-         names.empty() ? "interface '" + interface.name +
-                             "' has no clock: no port is one; say "
-                             "INTERFACES \"<port>: clock\""
+         names.empty() ? "interface '" + interface.name + "' has no clock: no port is one; say " +
+                             option_ + " \"<port>: clock\""
                        : "interface '" + interface.name + "' may belong to " + vp::one_of(names) +
-                             ": say INTERFACES \"" + interface.name + ": clock <port>\"");
+                             ": say " + option_ + " \"" + interface.name + ": clock <port>\"");
 }
 
 }  // namespace
@@ -380,8 +380,8 @@ const char* to_string(Kind kind) {
   return "wire";
 }
 
-std::vector<Interface> find_interfaces(const RtlDescriptor& rtl) {
-  return Finder(rtl).find();
+std::vector<Interface> find_interfaces(const RtlDescriptor& rtl, const std::string& option) {
+  return Finder(rtl, option).find();
 }
 
 }  // namespace axi
