@@ -3,10 +3,14 @@
 #include <boost/test/unit_test.hpp>
 
 #include <bus_master.h>
+#include <fcntl.h>
 #include <memory_target.h>
 #include <simulation.h>
+#include <temporary_files.h>
+#include <unistd.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -346,6 +350,28 @@ BOOST_FIXTURE_TEST_CASE(what_does_not_go_together_is_refused, Bench) {
   for (const char* open : {"s_axi_control", "m_axi_gmem", "in", "out", "mode"})
     held.leave_open(open);
   refused([&] { axi::RtlPart other("other", everything, {{"clk", &clock}}); }, {"clk", "ap_clk"});
+}
+
+// What a command prints may go into a file.
+BOOST_FIXTURE_TEST_CASE(what_rtl_prints_is_no_output_of_a_command, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  const kit::TemporaryFolder folder;
+  const auto printed = [&](std::FILE* stream) {
+    const std::string file = folder / "printed";
+    std::fflush(stream);
+    const int kept = ::dup(::fileno(stream)), other = ::creat(file.c_str(), 0600);
+    ::dup2(other, ::fileno(stream));
+    axi::RtlPart part(sc_core::sc_gen_unique_name("part"), MARKERVP_GATES_RTL, {{"", &clock}});
+    part.tie("a", 0);
+    std::fflush(stream);
+    ::dup2(kept, ::fileno(stream));
+    ::close(kept);
+    ::close(other);
+    return kit::read_file(file);
+  };
+  BOOST_TEST(printed(stdout) == "");
+  BOOST_TEST(printed(stderr) == "gates are made\n");
 }
 
 #ifdef MARKERVP_CHOICE_RTL
