@@ -31,6 +31,7 @@ function(markervp_add_rtl NAME)
       message(FATAL_ERROR "markervp_add_rtl(${NAME}): there is no file '${source}'")
     endif()
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${source}")
+    markervp_rtl_refuse_encrypted(${NAME} "${source}")
     if(source MATCHES "\\.vhdl?$")
       list(APPEND vhdl "${source}")
     else()
@@ -47,9 +48,8 @@ function(markervp_add_rtl NAME)
   endif()
   markervp_rtl_options(options)
 
-  set(advice "Verilator refuses the RTL: mend what it says above, or waive it in the source or by WAIVERS")
-  markervp_rtl_run(${NAME} "${advice}" "${VERILATOR_BIN}" --lint-only --top-module ${RTL_TOP} ${options} ${parameters} ${sources})
-  markervp_rtl_run(${NAME} "${advice}" "${VERILATOR_BIN}" --xml-only --xml-output "${folder}/top.xml" --Mdir "${folder}"
+  markervp_rtl_run(${NAME} "${VERILATOR_BIN}" --lint-only --top-module ${RTL_TOP} ${options} ${parameters} ${sources})
+  markervp_rtl_run(${NAME} "${VERILATOR_BIN}" --xml-only --xml-output "${folder}/top.xml" --Mdir "${folder}"
     --top-module ${RTL_TOP} ${options} ${parameters} ${sources})
   set(check check)
   set(assert --assert)
@@ -222,11 +222,32 @@ else()
   set(markervp_rtl_include "${CMAKE_CURRENT_LIST_DIR}/../../../include/markervp/models")
 endif()
 
-# Stops with `advice`, below what the program said, if it fails.
-function(markervp_rtl_run NAME ADVICE)
+# An encrypted source, of Verilog or VHDL, is nothing that Verilator or GHDL could read.
+function(markervp_rtl_refuse_encrypted NAME SOURCE)
+  file(STRINGS "${SOURCE}" found REGEX "^[ \t]*`(pragma[ \t]+)?protect[ \t]+begin_protected" LIMIT_COUNT 1)
+  if(found)
+    message(FATAL_ERROR "markervp_add_rtl(${NAME}): '${SOURCE}' is encrypted, so only the tools of its vendor read it: "
+      "take a model in its place, of the shelf or your own (docs/designs.md)")
+  endif()
+endfunction()
+
+# What is missing is another file of the user's, or a cell of the vendor's.
+function(markervp_rtl_advice ERRORS RESULT)
+  if(ERRORS MATCHES "Cannot find file containing module: '([^']+)'")
+    set(${RESULT} "module '${CMAKE_MATCH_1}' is in none of the sources: add the file that has it, or, of a vendor's cell (primitive, XPM, "
+      "generated IP), a module of that name and those ports that does the same" PARENT_SCOPE)
+    return()
+  endif()
+  set(${RESULT} "Verilator refuses the RTL: mend what it says above, or waive it in the source or by WAIVERS" PARENT_SCOPE)
+endfunction()
+
+# Stops with advice, below what the program said, if it fails.
+function(markervp_rtl_run NAME)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result ERROR_VARIABLE errors OUTPUT_VARIABLE errors)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${errors}\nmarkervp_add_rtl(${NAME}): ${ADVICE}")
+    markervp_rtl_advice("${errors}" advice)
+    string(CONCAT advice ${advice})
+    message(FATAL_ERROR "${errors}\nmarkervp_add_rtl(${NAME}): ${advice}")
   endif()
 endfunction()
 
@@ -375,8 +396,12 @@ function(markervp_rtl_glue NAME FOLDER parameters)
         set(most 64)
       endif()
       if(NOT pin OR NOT direction MATCHES "^(input|output)$" OR bits LESS 1 OR bits GREATER most)
+        set(advice "no IP has such a port; change it")
+        if(direction STREQUAL "inout")
+          set(advice "wires here have one direction: give '${name}_i', '${name}_o' and '${name}_t' in its place")
+        endif()
         message(FATAL_ERROR "${port_place}: port '${name}' of '${top}' is no input or output of 1 to ${most} bits\n"
-          "markervp_add_rtl(${NAME}): no IP has such a port; change it")
+          "markervp_add_rtl(${NAME}): ${advice}")
       endif()
       set(output 0)
       if(direction STREQUAL "output")

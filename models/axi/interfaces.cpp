@@ -21,6 +21,11 @@ std::string small(std::string text) {
   return text;
 }
 
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
@@ -58,6 +63,16 @@ std::pair<std::size_t, std::size_t> common_start(const std::string& a, const std
 
 bool of_stream(const std::string& signal) {
   return signal.front() == 't';
+}
+
+/// The bits of a signal that all interfaces have the same of; 0: they differ. AXI3 has other ones
+/// of LOCK and LEN.
+unsigned bits_of(const std::string& signal) {
+  for (const char* end : {"valid", "ready", "last"}) {
+    if (ends_with(signal, end)) return 1;
+  }
+  if (ends_with(signal, "resp") || ends_with(signal, "burst")) return 2;
+  return ends_with(signal, "size") ? 3 : 0;
 }
 
 /// What one interface must have to be whole.
@@ -237,6 +252,10 @@ void Finder::classify(Interface& interface) const {
                             option_ + " \"" + interface.name + ": wire\"");
   }
   for (const auto& [signal, number] : interface.ports) {
+    if (const unsigned bits = bits_of(signal); bits != 0 && port(number).bits != bits)
+      refuse(port(number).place, std::string("port '") + port(number).name + "' has " +
+                                     std::to_string(port(number).bits) + " bits: " + upper(signal) +
+                                     " of AXI has " + std::to_string(bits));
     const bool answers =
         ends_with(signal, "ready") != (signal.front() == 'b' || signal.front() == 'r');
     const bool output = interface.slave ? answers : !answers;

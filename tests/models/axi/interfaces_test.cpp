@@ -118,6 +118,21 @@ BOOST_AUTO_TEST_CASE(whole_words_choose_the_clock) {
   check_says(unclear.refusal(), {"'s00_axi' may belong to s00_axis_aclk or s00_axiom_aclk"});
 }
 
+BOOST_AUTO_TEST_CASE(a_signal_of_axi_has_its_width) {
+  const auto with = [](const std::string& signal, const std::string& other) {
+    Ports ports = Ports{"i clk"} + lite("s_");
+    for (std::string& port : ports)
+      if (port.substr(2).rfind("s_" + signal, 0) == 0) port = port.substr(0, 2) + other;
+    return Module(ports).refusal();
+  };
+  check_says(with("awvalid", "s_awvalid 2"),
+             {"core.v:3", "'s_awvalid' has 2 bits", "AWVALID of AXI has 1"});
+  check_says(with("bresp", "s_bresp 3"), {"'s_bresp' has 3 bits", "BRESP of AXI has 2"});
+  check_says(Module({"i clk", "i s_tdata 8", "i s_tvalid", "i s_tlast 4"}).refusal(),
+             {"TLAST of AXI has 1"});
+  BOOST_TEST(with("awvalid", "s_awvalid") == "");
+}
+
 BOOST_AUTO_TEST_CASE(resets_of_high_level_synthesis_that_are_high) {
   Module core({"i ACLK", "i ARESET", "i ap_rst", "i s_areset"});
   BOOST_TEST(core.text() ==

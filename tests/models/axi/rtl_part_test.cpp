@@ -352,6 +352,37 @@ BOOST_FIXTURE_TEST_CASE(what_does_not_go_together_is_refused, Bench) {
   refused([&] { axi::RtlPart other("other", everything, {{"clk", &clock}}); }, {"clk", "ap_clk"});
 }
 
+// RTL that ignores its responses would go on with what it did not read.
+BOOST_FIXTURE_TEST_CASE(addresses_without_memory_are_told_of_once, Bench) {
+  std::ostringstream text;
+  vp::ReportRouter reports;
+  reports.redirect(text);
+  software.simulate([&] {
+    wait_clocks(20);
+    put(0x10, 0x3'0000);
+    put(0x18, 0x100);
+    put(0x00, 2u << 16 | 1);
+    wait_clocks(300);
+  });
+  BOOST_TEST(reports.count("/markervp/rtl/decode") == 1u);
+  BOOST_TEST(text.str().find("part.m_axi_gmem: it reads 0x00030000, where nothing answers") !=
+                 std::string::npos,
+             text.str());
+}
+
+BOOST_AUTO_TEST_CASE(a_master_that_reaches_no_memory_is_refused) {
+  kit::Simulation simulation;
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  kit::MemoryTarget memory("memory", 0x1'0000);
+  axi::RtlPart part("part", everything, {{"ap_clk", &clock}});
+  for (const char* open : {"s_axi_control", "in", "out"}) part.leave_open(open);
+  part.tie("mode", 0);
+  part.master("m_axi_gmem").read.link.socket.bind(memory.socket);
+  refused([] { sc_core::sc_start(sc_core::SC_ZERO_TIME); },
+          {"everything.sv:", "master 'm_axi_gmem' reaches no memory", "read and write"});
+}
+
 // What a command prints may go into a file.
 BOOST_FIXTURE_TEST_CASE(what_rtl_prints_is_no_output_of_a_command, kit::Simulation) {
   vp::ClockScheduler scheduler("scheduler");
