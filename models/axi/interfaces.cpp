@@ -21,6 +21,11 @@ std::string small(std::string text) {
   return text;
 }
 
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
@@ -42,14 +47,32 @@ std::optional<Split> split(const std::string& port) {
   return Split{match[1], small(match[2])};
 }
 
-std::size_t common_length(const std::string& a, const std::string& b) {
-  std::size_t length = 0;
-  while (length < std::min(a.size(), b.size()) && a[length] == b[length]) ++length;
-  return length;
+/// How much two names begin alike: whole words first, as s00_axi is nearer to s00_axi_aclk than to
+/// s00_axis_aclk, then characters.
+std::pair<std::size_t, std::size_t> common_start(const std::string& a, const std::string& b) {
+  std::size_t words = 0, length = 0;
+  const auto ends = [&](const std::string& name) {
+    return length == name.size() || name[length] == '_';
+  };
+  for (; length < std::min(a.size(), b.size()) && a[length] == b[length]; ++length) {
+    if (a[length] == '_') ++words;
+  }
+  if (length > 0 && ends(a) && ends(b)) ++words;
+  return {words, length};
 }
 
 bool of_stream(const std::string& signal) {
   return signal.front() == 't';
+}
+
+/// The bits of a signal that all interfaces have the same of; 0: they differ. AXI3 has other ones
+/// of LOCK and LEN.
+unsigned bits_of(const std::string& signal) {
+  for (const char* end : {"valid", "ready", "last"}) {
+    if (ends_with(signal, end)) return 1;
+  }
+  if (ends_with(signal, "resp") || ends_with(signal, "burst")) return 2;
+  return ends_with(signal, "size") ? 3 : 0;
 }
 
 /// What one interface must have to be whole.
@@ -68,7 +91,8 @@ std::vector<std::string> required(const Interface& interface) {
 
 class Finder {
  public:
-  explicit Finder(const RtlDescriptor& rtl) : rtl_(rtl), owner_(rtl.port_count) {}
+  Finder(const RtlDescriptor& rtl, std::string option)
+      : rtl_(rtl), option_(std::move(option)), owner_(rtl.port_count) {}
 
   std::vector<Interface> find() {
     check_notes();
@@ -141,7 +165,8 @@ class Finder {
   bool is_associated(const std::string& clock, const std::string& name) const;
 
   const RtlDescriptor& rtl_;
-  std::vector<bool> owner_;  ///< the port belongs to an interface
+  const std::string option_;  ///< by which users say what a port is
+  std::vector<bool> owner_;   ///< the port belongs to an interface
   std::vector<Interface> found_;
 };
 
@@ -161,23 +186,22 @@ void Finder::check_notes() const {
       return whole == name || whole.rfind(name + "_", 0) == 0;
     };
     if (std::none_of(rtl_.ports, rtl_.ports + rtl_.port_count, belongs))
-      refuse(rtl_.place, std::string("INTERFACES speaks of '") + note.port + "', and module '" +
-                             rtl_.top + "' has no such port");
+      refuse(rtl_.place, option_ + " speaks of '" + note.port + "', and module '" + rtl_.top +
+                             "' has no such port");
     for (std::uint32_t k = 0; k < i; ++k) {
       if (std::string(rtl_.notes[k].what) == note.what && small(rtl_.notes[k].port) == name)
-        refuse(rtl_.place, std::string("INTERFACES speaks of '") + note.port +
-                               "' twice: say all of it in one place");
+        refuse(rtl_.place,
+               option_ + " speaks of '" + note.port + "' twice: say all of it in one place");
     }
     std::istringstream words(note.text);
     std::string clock;
     for (std::string word; words >> word;) {
       if (known_words().count(word) == 0)
-        refuse(rtl_.place, std::string("INTERFACES says '") + word + "' of '" + note.port +
-                               "': use " +
+        refuse(rtl_.place, option_ + " says '" + word + "' of '" + note.port + "': use " +
                                vp::one_of({known_words().begin(), known_words().end()}));
       if (word == "clock" && words >> word && !std::exchange(clock, word).empty())
-        refuse(rtl_.place, std::string("INTERFACES gives '") + note.port +
-                               "' more than one clock: each interface has one");
+        refuse(rtl_.place,
+               option_ + " gives '" + note.port + "' more than one clock: each interface has one");
     }
   }
 }
@@ -225,9 +249,13 @@ void Finder::classify(Interface& interface) const {
     if (interface.has(signal)) continue;
     refuse(shown.place, "half an interface: '" + interface.name + "' has '" + shown.name +
                             "' and lacks its signal '" + signal + "'; add the port, or say " +
-                            "INTERFACES \"" + interface.name + ": wire\"");
+                            option_ + " \"" + interface.name + ": wire\"");
   }
   for (const auto& [signal, number] : interface.ports) {
+    if (const unsigned bits = bits_of(signal); bits != 0 && port(number).bits != bits)
+      refuse(port(number).place, std::string("port '") + port(number).name + "' has " +
+                                     std::to_string(port(number).bits) + " bits: " + upper(signal) +
+                                     " of AXI has " + std::to_string(bits));
     const bool answers =
         ends_with(signal, "ready") != (signal.front() == 'b' || signal.front() == 'r');
     const bool output = interface.slave ? answers : !answers;
@@ -242,24 +270,28 @@ bool Finder::is_low(const std::string& name, const std::string& said) const {
   if (says(said, "low") || says(said, "high")) return says(said, "low");
   const std::string polarity = small(parameter(note("parameter", name), "POLARITY"));
   if (!polarity.empty()) return polarity == "active_low";
-  for (const char* end : {"resetn", "rstn", "rst_n", "reset_n", "rst_ni"}) {
+  for (const char* end : {"resetn", "rstn", "rst_n", "reset_n", "rst_ni", "reset_ni"}) {
     if (ends_with(small(name), end)) return true;
   }
-  if (small(name) == "ap_rst") return false;  // HLS calls its resets so, and ap_rst_n
+  // ARESETn without its n, and what high-level synthesis calls a reset that is high.
+  for (const char* end : {"areset", "ap_rst"}) {
+    if (ends_with(small(name), end)) return false;
+  }
   const auto* place = std::find_if(rtl_.ports, rtl_.ports + rtl_.port_count,
                                    [&](const RtlPort& port) { return port.name == name; });
   refuse(place->place, "reset '" + name +
                            "' does not say at which level it resets: the vendor's "
-                           "tools take it for low, most sources mean high; say INTERFACES \"" +
-                           name + ": reset high\" or \"" + name + ": reset low\", or \"" + name +
-                           ": wire\" if it resets nothing");
+                           "tools take it for low, most sources mean high; say " +
+                           option_ + " \"" + name + ": reset high\" or \"" + name +
+                           ": reset low\", or \"" + name + ": wire\" if it resets nothing");
 }
 
 Interface Finder::single(std::uint32_t number) const {
   static const std::regex clock("(.*_)?(clk|clkin|clock(_.*)?|aclk|aclkin|clk_i)|.*_aclk",
                                 std::regex::icase);
   static const std::regex reset(
-      "(.*_)?(aresetn|axi_resetn|reset(_.*)?|resetin|resetn|rst|rst_n|rstin|rstn|rst_i|rst_ni)",
+      "(.*_)?(areset|aresetn|axi_resetn|reset(_.*)?|resetin|resetn|rst|rst_n|rstin|rstn|rst_i|rst_"
+      "ni)",
       std::regex::icase);
   static const std::regex interrupt("interrupt|irq|intr|introut|.*_(irq|intr|introut|interrupt)",
                                     std::regex::icase);
@@ -319,16 +351,16 @@ void Finder::find_clock(Interface& interface) const {
   const std::string said = said_clock(note("interface", interface.name));
   if (!said.empty()) {
     if (std::find(names.begin(), names.end(), said) == names.end())
-      refuse(rtl_.place, "INTERFACES says that '" + interface.name + "' belongs to clock '" + said +
+      refuse(rtl_.place, option_ + " says that '" + interface.name + "' belongs to clock '" + said +
                              "', which the RTL does not have");
     interface.clock = said;
     return;
   }
   std::vector<std::string> best, associated;
-  std::size_t longest = 0;
+  std::pair<std::size_t, std::size_t> longest;
   for (const std::string& name : names) {
     if (is_associated(name, interface.name)) associated.push_back(name);
-    const std::size_t common = common_length(small(name), small(interface.name));
+    const auto common = common_start(small(name), small(interface.name));
     if (common > longest) best.clear();
     if (common >= longest) best.push_back(name);
     longest = std::max(longest, common);
@@ -339,11 +371,10 @@ void Finder::find_clock(Interface& interface) const {
                          interface.kind == Kind::axi_stream;
   if (!interface.clock.empty() || !needs_one) return;
   refuse(port(first_port(interface)).place,
-         names.empty() ? "interface '" + interface.name +
-                             "' has no clock: no port is one; say "
-                             "INTERFACES \"<port>: clock\""
+         names.empty() ? "interface '" + interface.name + "' has no clock: no port is one; say " +
+                             option_ + " \"<port>: clock\""
                        : "interface '" + interface.name + "' may belong to " + vp::one_of(names) +
-                             ": say INTERFACES \"" + interface.name + ": clock <port>\"");
+                             ": say " + option_ + " \"" + interface.name + ": clock <port>\"");
 }
 
 }  // namespace
@@ -368,8 +399,8 @@ const char* to_string(Kind kind) {
   return "wire";
 }
 
-std::vector<Interface> find_interfaces(const RtlDescriptor& rtl) {
-  return Finder(rtl).find();
+std::vector<Interface> find_interfaces(const RtlDescriptor& rtl, const std::string& option) {
+  return Finder(rtl, option).find();
 }
 
 }  // namespace axi

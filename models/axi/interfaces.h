@@ -34,11 +34,12 @@ struct Interface {
 /// VALID says which side it is. X_INTERFACE_INFO and X_INTERFACE_PARAMETER of the source win over
 /// names, what the user says (INTERFACES) over both: "<port or prefix>: <kind> [high|low] [rising]
 /// [clock <port>]". Clocks and resets are found as the vendor's packager does it; an interface
-/// belongs to the clock that names it, that shares most of its name, or that is the only one.
+/// belongs to the clock that names it, that shares most words of its name, or that is the only one.
 ///
 /// Throws vp::InputError with file and line: half an interface; a reset whose polarity neither an
 /// attribute nor the name tells; several clocks of which none is the interface's; a note about a
-/// port that is not there.
-std::vector<Interface> find_interfaces(const RtlDescriptor& rtl);
+/// port that is not there. `option` is what messages call that by which users say what a port is.
+std::vector<Interface> find_interfaces(const RtlDescriptor& rtl,
+                                       const std::string& option = "INTERFACES");
 
 }  // namespace axi

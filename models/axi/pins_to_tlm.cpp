@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
+#include <utility>
 
 #include <vp/clock_scheduler.h>
+#include <vp/report.h>
+#include <vp/text.h>
 
 namespace axi {
 
@@ -144,9 +148,21 @@ void PinsToTlm::call(std::deque<Burst>& bursts, xilinx::MemoryPort& port,
       }
       if (!port.done()) return;
       burst.called = false;
+      if (port.response() == tlm::TLM_ADDRESS_ERROR_RESPONSE)
+        tell_of_nothing(command, burst.parts[burst.responses.size()].address);
       burst.responses.push_back(axi::response_of(port.response()));
     }
   }
+}
+
+/// RTL may ignore its responses.
+void PinsToTlm::tell_of_nothing(tlm::tlm_command command, std::uint64_t address) {
+  if (std::exchange(told_of_nothing_, true)) return;
+  vp::warn(*this, "/markervp/rtl/decode",
+           std::string(command == tlm::TLM_READ_COMMAND ? "it reads " : "it writes ") +
+               vp::hex(address) +
+               ", where nothing answers: the response is DECERR; give the RTL addresses that "
+               "its memory has");
 }
 
 // What is driven behind an edge passes on the next one at the earliest.

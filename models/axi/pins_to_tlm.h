@@ -100,6 +100,7 @@ class PinsToTlm final : public sc_core::sc_module {
   void call_targets();
   void call(std::deque<Burst>& bursts, xilinx::MemoryPort& port, tlm::tlm_command command);
   void drive_read(std::uint64_t cycle);
+  void tell_of_nothing(tlm::tlm_command command, std::uint64_t address);
 
   const vp::Clock& clock_;
   const Shape shape_;
@@ -108,6 +109,7 @@ class PinsToTlm final : public sc_core::sc_module {
   std::deque<Burst> requests_;  ///< writes whose data are not complete
   Queue<WriteBeat> early_;      ///< write beats before their address
   std::deque<Burst> writes_, reads_;
+  bool told_of_nothing_ = false;  ///< of an address without memory: once
 };
 
 }  // namespace axi

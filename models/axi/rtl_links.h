@@ -75,6 +75,11 @@ class MasterLink final : public RtlLink {
   MasterLink(const Interface& interface, std::size_t clock, const pl::RtlObject& rtl,
              const vp::Clock& clk);
   PinsToTlm& adapter() { return adapter_; }
+  /// Both of its ports are connected. During elaboration.
+  bool is_bound() {
+    return adapter_.read.link.socket.bind_count() > 0 &&
+           adapter_.write.link.socket.bind_count() > 0;
+  }
   void sample(bool in_reset) override;
   bool drive() override;
   bool busy() const override { return !adapter_.idle() || !wires_.quiet(); }

@@ -292,6 +292,12 @@ void RtlPart::check_connections() const {
 void RtlPart::before_end_of_elaboration() {
   check_connections();
   for (const auto& link : links_) {
+    auto* master = dynamic_cast<MasterLink*>(link.get());
+    if (master && !master->is_bound())
+      refuse(find(master->name, {Kind::axi4, Kind::axi_lite}),
+             "master '" + master->name +
+                 "' reaches no memory: connect both of its ports, read and write, to an "
+                 "interconnect");
     auto* stream = dynamic_cast<StreamOutLink*>(link.get());
     for (const ResetSignal& reset : reset_signals_)
       if (stream && stream->clock == reset.clock)
@@ -464,8 +470,11 @@ bool RtlPart::clocks_fall_unseen() const {
   const RtlDescriptor& rtl = rtl_->descriptor();
   for (std::uint32_t i = 0; i < rtl.note_count; ++i) {
     if (std::string(rtl.notes[i].what) != "unseen") continue;
-    const auto found = connected_.find(rtl.notes[i].port);
-    if (found == connected_.end()) return false;
+    const char* const clock = rtl.notes[i].port;
+    if (std::none_of(interfaces_.begin(), interfaces_.end(), [&](const Interface& one) {
+          return one.kind == Kind::clock && one.name == clock;
+        }))
+      return false;
     ++known;
   }
   return rtl_->lowers() && known == levels_.size();

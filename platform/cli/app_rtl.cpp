@@ -76,6 +76,10 @@ void add_rtl_prove(CLI::App& rtl, RtlOptions& target) {
       ->type_name("PORT: KIND")
       ->expected(1)
       ->take_all();
+  prove->add_option("--tie", options.ties, "an input that never changes, without an IP: 'mode=3'")
+      ->type_name("PORT=NUMBER")
+      ->expected(1)
+      ->take_all();
   add_reading_options(*prove, options);
   prove->add_option("--time", options.seconds, "of the processor, for all of it (default: 60)")
       ->type_name("SECONDS")

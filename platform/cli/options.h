@@ -118,6 +118,7 @@ struct RtlProveOptions {
   std::optional<std::string> top;  ///< none: the module of the IP's name
   std::vector<std::string> parameters, includes, defines, ghdl_options;  ///< as RtlSynthOptions
   std::vector<std::string> interfaces;  ///< as INTERFACES of markervp_add_rtl()
+  std::vector<std::string> ties;        ///< "mode=3"
   unsigned seconds = 60;
   std::uint64_t depth = 0;  ///< clocks that are enough; 0: only a proof is
   std::string output = "out";

@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <ostream>
-#include <regex>
 #include <utility>
 
 #include <axi/interfaces.h>
@@ -52,7 +55,7 @@ proof::Pins pins_of(const std::vector<proof::Port>& ports, const std::string& to
   module.note_count = static_cast<std::uint32_t>(notes.size());
   module.notes = notes.data();
   proof::Pins pins;
-  for (const axi::Interface& one : axi::find_interfaces(module)) {
+  for (const axi::Interface& one : axi::find_interfaces(module, "--interface")) {
     const auto port_of = [&](std::uint32_t number) { return std::string(list[number].name); };
     if (one.kind == axi::Kind::clock) {
       if (!pins.clock.empty())
@@ -83,6 +86,26 @@ proof::Pins pins_of(const std::vector<proof::Port>& ports, const std::string& to
   return pins;
 }
 
+/// "mode=3", "base=0x1F00".
+std::map<std::string, std::uint64_t> ties_of(const std::vector<std::string>& texts) {
+  std::map<std::string, std::uint64_t> ties;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const std::string digits = equals == std::string::npos ? "" : text.substr(equals + 1);
+    char* end = nullptr;
+    errno = 0;
+    const std::uint64_t value = std::strtoull(digits.c_str(), &end, 0);
+    const bool read = !digits.empty() && std::isdigit(static_cast<unsigned char>(digits[0])) != 0 &&
+                      *end == '\0' && errno == 0;
+    if (name.empty() || !read)
+      throw vp::InputError("--tie '" + text + "': give PORT=NUMBER, as mode=3 or base=0x1F00");
+    if (!ties.emplace(name, value).second)
+      throw vp::InputError("--tie gives '" + name + "' two values: each input has one");
+  }
+  return ties;
+}
+
 proof::Claim claim_of(const std::string& ip, const RtlProveOptions& options) {
   proof::Claim claim;
   claim.ip = ip;
@@ -96,6 +119,9 @@ proof::Claim claim_of(const std::string& ip, const RtlProveOptions& options) {
   if (!ip.empty() && !options.interfaces.empty())
     throw vp::InputError("--interface is for RTL without an IP: the ports of '" + ip +
                          "' are known");
+  if (!ip.empty() && !options.ties.empty())
+    throw vp::InputError("--tie is for RTL without an IP: what the inputs of '" + ip +
+                         "' may be is known");
   if (!options.rtl) {
     if (options.top) throw vp::InputError("--top is a module of --rtl: give both");
     return claim;
@@ -115,12 +141,9 @@ proof::Claim claim_of(const std::string& ip, const RtlProveOptions& options) {
   claim.theirs->ghdl_options = options.ghdl_options;
   if (ip.empty()) {
     claim.find_pins = [top = *options.top, &options](const std::vector<proof::Port>& ports) {
-      try {
-        return pins_of(ports, top, options.interfaces);
-      } catch (const vp::InputError& error) {
-        throw vp::InputError(
-            std::regex_replace(error.what(), std::regex("\\bINTERFACES\\b"), "--interface"));
-      }
+      proof::Pins pins = pins_of(ports, top, options.interfaces);
+      pins.ties = ties_of(options.ties);
+      return pins;
     };
   }
   return claim;

@@ -1,8 +1,10 @@
 // RTL built outside of the tree, in place of models of the installed executable.
 #include <boost/test/unit_test.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "../integration/pictures.h"
 #include "installation.h"
@@ -361,6 +363,33 @@ BOOST_AUTO_TEST_CASE(rtl_as_a_part_of_a_design) {
     return module["name"] == "pl.copier";
   });
   BOOST_TEST((*copier)["lut"] > 100, copier->dump());
+}
+
+// A port more, and an output that is no register any more: what is known of the RTL follows.
+BOOST_AUTO_TEST_CASE(changed_rtl_is_looked_at_anew) {
+  const std::string folder = installed.beside("changed_source");
+  std::filesystem::create_directory(folder);
+  const auto write = [&](const std::string& ports, const std::string& body) {
+    kit::write_file(folder + "/changed.sv", "module changed(input logic clk, input logic a, " +
+                                                ports + ");\n" + body + "\nendmodule\n");
+  };
+  kit::write_file(folder + "/CMakeLists.txt",
+                  "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+                  "find_package(markervp REQUIRED COMPONENTS rtl)\n"
+                  "markervp_add_rtl(changed TOP changed SOURCES changed.sv)\n");
+  const auto notes = [&] {
+    return kit::read_file(installed.beside("changed/changed.rtl/glue.cpp"));
+  };
+  write("output logic q", "always_ff @(posedge clk) q <= a;");
+  BOOST_TEST_REQUIRE(installed.configure(folder, "changed").exit_code == 0);
+  BOOST_TEST_REQUIRE(installed.build_target("changed", "all").exit_code == 0);
+  BOOST_TEST(contains(notes(), "{\"registered\""));
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // for the build's times
+  write("output logic q, output logic z", "always_ff @(posedge clk) q <= a;\nassign z = !a;");
+  const kit::Outcome rebuilt = installed.build_target("changed", "all");
+  BOOST_TEST_REQUIRE(rebuilt.exit_code == 0, rebuilt.out + rebuilt.err);
+  BOOST_TEST(contains(notes(), "{\"z\", 1, 1, "));
+  BOOST_TEST(!contains(notes(), "{\"registered\""));
 }
 
 BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_and_line) {

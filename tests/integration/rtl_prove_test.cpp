@@ -73,6 +73,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_proved_is_refused) {
   check_refused({}, "name an IP; or give --rtl and --top");
   check_refused({"--rtl", "own.v"}, "name an IP; or give --rtl and --top");
   check_refused({"frame_status", "--interface", "a: wire"}, "--interface is for RTL without an IP");
+  check_refused({"frame_status", "--tie", "a=1"}, "--tie is for RTL without an IP");
 }
 
 #ifdef MARKERVP_PROOFS
@@ -102,6 +103,47 @@ BOOST_AUTO_TEST_CASE(links_of_any_rtl_are_proved_to_keep_their_rules) {
   BOOST_TEST(has("out/prove.vcd"));
   kit::write_file(*this / "own.v", "module own(input clk, output x);\nassign x = 0;\nendmodule\n");
   check_refused({"--rtl", "own.v", "--top", "own"}, "no AXI4, AXI4-Lite or AXI4-Stream link");
+}
+
+BOOST_AUTO_TEST_CASE(inputs_may_be_tied) {
+  kit::write_file(*this / "own.v",
+                  "module own(input clk, input rst, input [1:0] wild, output reg m_tvalid = 0,\n"
+                  "  output reg [7:0] m_tdata = 0, input m_tready);\n"
+                  "  always @(posedge clk) begin\n    m_tvalid <= !rst;\n"
+                  "    if ((m_tvalid && m_tready) || wild == 2) m_tdata <= m_tdata + 1;\n"
+                  "  end\nendmodule\n");
+  const auto with = [](const Arguments& more) {
+    Arguments all{"--rtl", "own.v", "--top", "own", "--interface", "rst: reset high"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  kit::Outcome outcome = prove(with({}));
+  BOOST_TEST(outcome.exit_code == 1);
+  BOOST_TEST(says(outcome.err, "m_AXI4STREAM_ERRM_TDATA_STABLE"), outcome.err);
+  outcome = prove(with({"--tie", "wild=0x2"}));
+  BOOST_TEST(outcome.exit_code == 1);
+  outcome = prove(with({"--tie", "wild=1"}));
+  BOOST_TEST(outcome.exit_code == 0, outcome.err);
+  BOOST_TEST(says(outcome.out, "  wild is 0x1 on every clock\n"), outcome.out);
+  check_refused(with({"--tie", "wild"}), "--tie 'wild': give PORT=NUMBER");
+  check_refused(with({"--tie", "wild=-1"}), "--tie 'wild=-1': give PORT=NUMBER");
+  check_refused(with({"--tie", "wild=1", "--tie", "wild=2"}), "--tie gives 'wild' two values");
+  check_refused(with({"--tie", "wilt=1"}), "--tie: the RTL has no port 'wilt'");
+  check_refused(with({"--tie", "wild=4"}),
+                "own.v:1: --tie: 'wild' has 2 bits, and 0x00000004 does not fit");
+  check_refused(with({"--tie", "m_tdata=1"}), "'m_tdata' is an output");
+  check_refused(with({"--tie", "clk=1"}), "'clk' is the clock");
+  check_refused(with({"--tie", "rst=0"}), "'rst' is a reset");
+}
+
+// A message says what the option is, and leaves names as they are.
+BOOST_AUTO_TEST_CASE(a_port_may_be_called_as_an_option_of_cmake) {
+  kit::write_file(*this / "own.v",
+                  "module own(input clk, input INTERFACES, output [7:0] m_tdata, output m_tvalid,\n"
+                  "  input m_tready);\n  assign m_tdata = 0, m_tvalid = 0;\nendmodule\n");
+  check_refused({"--rtl", "own.v", "--top", "own", "--interface", "INTERFACES: reset"},
+                "reset 'INTERFACES' does not say at which level it resets: the vendor's tools take "
+                "it for low, most sources mean high; say --interface \"INTERFACES: reset high\"");
 }
 
 BOOST_AUTO_TEST_CASE(vhdl_is_proved_equal) {

@@ -5,6 +5,7 @@
 #include <vp/text.h>
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <string>
 #include <utility>
@@ -85,6 +86,10 @@ class ComponentReader {
   void add_registers(RegisterMap& map, const pugi::xml_node& parent, const std::string& prefix,
                      std::uint64_t base, const std::string& access) const {
     for (const pugi::xml_node& node : all(parent, "register")) {
+      if (is_memory(node)) {
+        add_memory(map, node, prefix, base, access);
+        continue;
+      }
       const std::uint64_t bytes = (required(node, "size") + 7) / 8;
       for_each(node, bytes, [&](const std::string& index, std::uint64_t at) {
         add_one(map, node, prefix + text(node, "name") + index, base + at, access);
@@ -95,6 +100,28 @@ class ComponentReader {
         add_registers(map, node, prefix + text(node, "name") + index + "_", base + at,
                       access_of(text(node, "access"), access));
       });
+    }
+  }
+
+  /// Vivado HLS calls a memory a register, Memory_<name>, whose size is in bytes.
+  bool is_memory(const pugi::xml_node& node) const {
+    constexpr std::uint64_t largest_register = 64;
+    return text(node, "name").rfind(memory_prefix, 0) == 0 && !in(node, "field") &&
+           required(node, "size") > largest_register;
+  }
+
+  void add_memory(RegisterMap& map, const pugi::xml_node& node, const std::string& prefix,
+                  std::uint64_t base, const std::string& access) const {
+    const std::uint64_t bytes = required(node, "size");
+    if (bytes / 4 > most_registers)
+      xml_.fail(node, "a memory of more than " + std::to_string(most_registers) + " words");
+    const std::string name = prefix + text(node, "name").substr(std::strlen(memory_prefix));
+    for (std::uint64_t at = 0; at < bytes; at += 4) {
+      DescribedRegister word;
+      word.name = name + "[" + std::to_string(at / 4) + "]";
+      word.offset = base + required(node, "addressOffset") + at;
+      word.access = access_of(text(node, "access"), access);
+      add_register(map, std::move(word), xml_.where(node));
     }
   }
 
@@ -147,6 +174,8 @@ class ComponentReader {
                              (read == "clear" ? "clears" : "sets") + " it";
     one.fields.push_back(std::move(field));
   }
+
+  static constexpr const char* memory_prefix = "Memory_";
 
   const XmlDocument xml_;
   const std::string prefix_;

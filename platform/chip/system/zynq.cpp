@@ -3,6 +3,8 @@
 #include <cstring>
 #include <utility>
 
+#include <axi/rtl_part.h>
+#include <chip/handoff/register_file.h>
 #include <chip/system/hardware_map.h>
 #include <chip/system/ps_blocks.h>
 #include <chip/system/wait_reason.h>
@@ -41,6 +43,15 @@ void check_that_parts_are_reached(const vp::Router* registers, const std::string
   }
 }
 
+/// Messages of a run need what describes the registers of RTL: what cannot be read of it is refused
+/// before the run, not in it.
+void check_descriptions_of_registers(const sc_core::sc_module& pl) {
+  for (const auto* part : vp::all_below<axi::RtlPart>(pl)) {
+    if (const std::string file = part->registers_file(); !file.empty())
+      handoff::read_registers(file);
+  }
+}
+
 }  // namespace
 
 Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual_cores)
@@ -56,6 +67,7 @@ Zynq::Zynq(const DesignInfo& design, pl::Fidelity otherwise, std::uint32_t usual
   check_that_parts_are_reached(ports.registers(), "m_axi_gp0", ProcessingSystem::gp0_base, pl());
   check_that_parts_are_reached(ports.registers_gp1(), "m_axi_gp1", ProcessingSystem::gp1_base,
                                pl());
+  check_descriptions_of_registers(pl());
   ps.start_clocks();
   scheduler.set_batch(true);
   for (ps::Cpu* core : ps.cpus()) {

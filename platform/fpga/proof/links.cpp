@@ -6,6 +6,7 @@
 #include <array>
 
 #include <fpga/proof/miter.h>
+#include <vp/error.h>
 #include <vp/text.h>
 
 namespace platform::proof {
@@ -66,9 +67,37 @@ std::vector<std::string> assumptions(const Pins& pins) {
     lines.emplace_back(
         "AXI4: the other end has one burst of each direction at a time, INCR and no wider than the "
         "data, with LAST on its last beat");
+  for (const auto& [port, value] : pins.ties)
+    lines.push_back(fmt::format("{} is 0x{:x} on every clock", port, value));
   lines.emplace_back("all other inputs are free");
   return lines;
 }
+
+namespace {
+
+/// Throws vp::InputError for what cannot be tied.
+void check_ties(const std::vector<Port>& ports, const Pins& pins) {
+  for (const auto& [name, value] : pins.ties) {
+    const std::string& tied = name;
+    const auto port = std::find_if(ports.begin(), ports.end(),
+                                   [&tied](const Port& one) { return one.name == tied; });
+    if (port == ports.end()) throw vp::InputError("--tie: the RTL has no port '" + name + "'");
+    const auto refuse = [&](const std::string& why) {
+      throw vp::InputError(port->place + ": --tie: '" + name + "' " + why);
+    };
+    if (port->output) refuse("is an output: only inputs can be tied");
+    if (name == pins.clock) refuse("is the clock: without edges there is nothing to prove");
+    if (port->bits < 64 && value >> port->bits != 0)
+      refuse("has " + std::to_string(port->bits) + " bits" + ", and " + vp::hex(value) +
+             " does not fit");
+    for (const Pins::Reset& reset : pins.resets) {
+      if (reset.port == name)
+        refuse("is a reset: say --interface \"" + name + ": wire\", or leave it free");
+    }
+  }
+}
+
+}  // namespace
 
 /// Writes the rules of one link, and what is assumed of its other end.
 class LinkRules {
@@ -242,13 +271,20 @@ void LinkRules::follow_burst(const std::string& request, const std::string& data
 
 // Inputs have names of their own: a port may be called `reset` or `bad`.
 Miter::Miter(const std::vector<Port>& ports, const Pins& pins) : contract_(nothing()) {
+  check_ties(ports, pins);
   std::string connections, outputs;
+  std::vector<Port> nets;
   verilog_ = "module miter(\n  input clk";
   for (const Port& port : ports) {
     std::string net = "clk";
     if (port.output) {
       net = "ours_" + port.name;
       outputs += fmt::format("wire [{}:0] {};\n", port.bits - 1, net);
+    } else if (const auto tie = pins.ties.find(port.name); tie != pins.ties.end()) {
+      net = input_prefix + port.name;
+      outputs += fmt::format("wire [{0}:0] {1} = {2};\n", port.bits - 1, net,
+                             fmt::format("{}'h{:x}", port.bits, tie->second));
+      nets.push_back({net, port.bits, false, port.place});
     } else if (port.name != pins.clock) {
       net = input_prefix + port.name;
       inputs_.push_back({net, port.bits, false, port.place});
@@ -256,7 +292,7 @@ Miter::Miter(const std::vector<Port>& ports, const Pins& pins) : contract_(nothi
     }
     connections += fmt::format("{}.{}({})", connections.empty() ? "" : ", ", port.name, net);
   }
-  std::vector<Port> nets = inputs_;
+  nets.insert(nets.end(), inputs_.begin(), inputs_.end());
   std::copy_if(ports.begin(), ports.end(), std::back_inserter(nets),
                [](const Port& port) { return port.output; });
   std::string any = "1'b0", all = "1'b1";

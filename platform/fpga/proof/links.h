@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -28,6 +29,7 @@ struct Pins {
   std::string clock;  ///< the port of the only one
   std::vector<Reset> resets = {};
   std::vector<Link> links = {};
+  std::map<std::string, std::uint64_t> ties = {};  ///< inputs that never change
 };
 
 /// Finds them among the ports of a module. Throws vp::InputError for what cannot be told, or has no

@@ -106,6 +106,41 @@ BOOST_AUTO_TEST_CASE(the_template_of_the_vendor) {
              "in s00_axi_aclk; clock m00_axis_aclk in; AXI4-Stream m00_axis out m00_axis_aclk");
 }
 
+// s00_axi begins as many characters of s00_axis_aclk as of its own clock.
+BOOST_AUTO_TEST_CASE(whole_words_choose_the_clock) {
+  Module peripheral(Ports{"i s00_axis_aclk", "i s00_axis_tvalid", "i s00_axis_tdata 32",
+                          "i s00_axi_aclk", "i s00_axi_aresetn"} +
+                    lite("s00_axi_"));
+  BOOST_TEST(peripheral.text() ==
+             "clock s00_axis_aclk in; AXI4-Stream s00_axis in s00_axis_aclk; clock s00_axi_aclk "
+             "in; reset s00_axi_aresetn in low s00_axi_aclk; AXI4-Lite s00_axi in s00_axi_aclk");
+  Module unclear(Ports{"i s00_axis_aclk", "i s00_axiom_aclk"} + lite("s00_axi_"));
+  check_says(unclear.refusal(), {"'s00_axi' may belong to s00_axis_aclk or s00_axiom_aclk"});
+}
+
+BOOST_AUTO_TEST_CASE(a_signal_of_axi_has_its_width) {
+  const auto with = [](const std::string& signal, const std::string& other) {
+    Ports ports = Ports{"i clk"} + lite("s_");
+    for (std::string& port : ports)
+      if (port.substr(2).rfind("s_" + signal, 0) == 0) port = port.substr(0, 2) + other;
+    return Module(ports).refusal();
+  };
+  check_says(with("awvalid", "s_awvalid 2"),
+             {"core.v:3", "'s_awvalid' has 2 bits", "AWVALID of AXI has 1"});
+  check_says(with("bresp", "s_bresp 3"), {"'s_bresp' has 3 bits", "BRESP of AXI has 2"});
+  check_says(Module({"i clk", "i s_tdata 8", "i s_tvalid", "i s_tlast 4"}).refusal(),
+             {"TLAST of AXI has 1"});
+  BOOST_TEST(with("awvalid", "s_awvalid") == "");
+}
+
+BOOST_AUTO_TEST_CASE(resets_of_high_level_synthesis_that_are_high) {
+  Module core({"i ACLK", "i ARESET", "i ap_rst", "i s_areset"});
+  BOOST_TEST(core.text() ==
+             "clock ACLK in; reset ARESET in ACLK; reset ap_rst in ACLK; reset s_areset in ACLK");
+  Module unclear({"i clk", "i my_rst"});
+  check_says(unclear.refusal(), {"reset 'my_rst' does not say at which level"});
+}
+
 BOOST_AUTO_TEST_CASE(a_suffix_for_the_direction_is_ignored) {
   Module core({"i clk_i", "i rst_ni", "i tdata_i 32", "i tvalid_i", "o tready_o", "o led_o 4"});
   BOOST_TEST(core.text() ==

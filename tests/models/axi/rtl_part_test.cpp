@@ -3,10 +3,14 @@
 #include <boost/test/unit_test.hpp>
 
 #include <bus_master.h>
+#include <fcntl.h>
 #include <memory_target.h>
 #include <simulation.h>
+#include <temporary_files.h>
+#include <unistd.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -348,6 +352,59 @@ BOOST_FIXTURE_TEST_CASE(what_does_not_go_together_is_refused, Bench) {
   refused([&] { axi::RtlPart other("other", everything, {{"clk", &clock}}); }, {"clk", "ap_clk"});
 }
 
+// RTL that ignores its responses would go on with what it did not read.
+BOOST_FIXTURE_TEST_CASE(addresses_without_memory_are_told_of_once, Bench) {
+  std::ostringstream text;
+  vp::ReportRouter reports;
+  reports.redirect(text);
+  software.simulate([&] {
+    wait_clocks(20);
+    put(0x10, 0x3'0000);
+    put(0x18, 0x100);
+    put(0x00, 2u << 16 | 1);
+    wait_clocks(300);
+  });
+  BOOST_TEST(reports.count("/markervp/rtl/decode") == 1u);
+  BOOST_TEST(text.str().find("part.m_axi_gmem: it reads 0x00030000, where nothing answers") !=
+                 std::string::npos,
+             text.str());
+}
+
+BOOST_AUTO_TEST_CASE(a_master_that_reaches_no_memory_is_refused) {
+  kit::Simulation simulation;
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  kit::MemoryTarget memory("memory", 0x1'0000);
+  axi::RtlPart part("part", everything, {{"ap_clk", &clock}});
+  for (const char* open : {"s_axi_control", "in", "out"}) part.leave_open(open);
+  part.tie("mode", 0);
+  part.master("m_axi_gmem").read.link.socket.bind(memory.socket);
+  refused([] { sc_core::sc_start(sc_core::SC_ZERO_TIME); },
+          {"everything.sv:", "master 'm_axi_gmem' reaches no memory", "read and write"});
+}
+
+// What a command prints may go into a file.
+BOOST_FIXTURE_TEST_CASE(what_rtl_prints_is_no_output_of_a_command, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  const kit::TemporaryFolder folder;
+  const auto printed = [&](std::FILE* stream) {
+    const std::string file = folder / "printed";
+    std::fflush(stream);
+    const int kept = ::dup(::fileno(stream)), other = ::creat(file.c_str(), 0600);
+    ::dup2(other, ::fileno(stream));
+    axi::RtlPart part(sc_core::sc_gen_unique_name("part"), MARKERVP_GATES_RTL, {{"", &clock}});
+    part.tie("a", 0);
+    std::fflush(stream);
+    ::dup2(kept, ::fileno(stream));
+    ::close(kept);
+    ::close(other);
+    return kit::read_file(file);
+  };
+  BOOST_TEST(printed(stdout) == "");
+  BOOST_TEST(printed(stderr) == "gates are made\n");
+}
+
 #ifdef MARKERVP_CHOICE_RTL
 BOOST_FIXTURE_TEST_CASE(vhdl_keeps_its_defaults_and_its_names, kit::Simulation) {
   vp::ClockScheduler scheduler("scheduler");
@@ -378,5 +435,44 @@ BOOST_FIXTURE_TEST_CASE(vhdl_keeps_its_defaults_and_its_names, kit::Simulation) 
     }
   });
   BOOST_TEST(pulses == "010010010");
+}
+
+BOOST_FIXTURE_TEST_CASE(vhdl_keeps_its_wide_constants, kit::Simulation) {
+  vp::ClockScheduler scheduler("scheduler");
+  vp::Clock clock("clock", scheduler, 100'000'000);
+  kit::BusMaster script("script");
+  kit::MemoryTarget nothing("nothing", 4);
+  script.socket.bind(nothing.socket);
+  vp::Signal<std::uint8_t> choose("choose");
+  vp::Signal<std::uint32_t> value("value");
+  axi::RtlPart part("part", MARKERVP_WIDE_RTL, {{"clk", &clock}});
+  part.input("choose", choose);
+  part.input("value", value);
+  auto& sum = part.output<std::uint64_t>("sum");
+  auto& chosen = part.output<std::uint64_t>("chosen");
+  auto& count = part.output<std::uint64_t>("count");
+  auto& same = part.output<bool>("same");
+  auto& settings = part.output<std::uint64_t>("settings");
+  const std::vector<std::uint64_t> choices{
+      0x0123'4567'89AB'CDEF, 0x7'0000'0000,         0x8000'0000'0000'0000, 0,
+      ~std::uint64_t{0},     0xFFFF'FFFF'FFFF'0001, 0x5'0000'0000,         0x5'0000'0000};
+  script.simulate([&] {
+    script.wait_until(15'000);
+    BOOST_TEST(settings == 0x1A'1000'0002);  // of generics that are no numbers
+    BOOST_TEST(sum == 0x8000'0000'0000'0001);
+    BOOST_TEST(!same);
+    value = 0xFFFF'0001;
+    BOOST_TEST(sum == 0x8000'0000'FFFF'0002);
+    BOOST_TEST(same);
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      choose = static_cast<std::uint8_t>(i);
+      BOOST_TEST(chosen == choices[i]);
+    }
+    const std::uint64_t before = count;
+    sc_core::wait(20, sc_core::SC_NS);
+    constexpr std::uint64_t bits = 0xFFFF'FFFF'FFFF, start = 0xFFFF'FFFF'FFF0, step = 0x1'0000'0001;
+    BOOST_TEST(count == ((before + 2 * step) & bits));
+    BOOST_TEST(((before - start) & bits) % step == 0u);
+  });
 }
 #endif

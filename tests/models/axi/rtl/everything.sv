@@ -61,6 +61,7 @@ module everything (
     output logic [ 7:0] leds
 );
   logic [31:0] from, to;
+  logic [31:0] source, target;  // of the present copy: the registers may change meanwhile
   logic [15:0] bursts;  // left
   logic [2:0] beats;    // received of the present one
   logic [63:0] words[4];
@@ -113,8 +114,8 @@ module everything (
       end
     end
 
-  assign m_axi_gmem_ARADDR  = {32'b0, from + {11'b0, counted, 5'b0}};
-  assign m_axi_gmem_AWADDR  = {32'b0, to + {11'b0, counted, 5'b0}};
+  assign m_axi_gmem_ARADDR  = {32'b0, source + {11'b0, counted, 5'b0}};
+  assign m_axi_gmem_AWADDR  = {32'b0, target + {11'b0, counted, 5'b0}};
   assign m_axi_gmem_ARLEN   = 8'd3;
   assign m_axi_gmem_AWLEN   = 8'd3;
   assign m_axi_gmem_ARSIZE  = 3'd3;
@@ -146,6 +147,8 @@ module everything (
           state   <= ADDRESS;
           bursts  <= s_axi_control_WDATA[31:16];
           counted <= '0;
+          source  <= from;
+          target  <= to;
         end
         ADDRESS: if (m_axi_gmem_ARREADY) state <= READ;
         READ:

@@ -4,6 +4,7 @@ module gates (
     output logic [7:0] inverted,
     output logic       parity
 );
+  initial $display("gates are made");
   assign inverted = ~a;
   assign parity   = ^a;
 endmodule

@@ -127,6 +127,22 @@ BOOST_FIXTURE_TEST_CASE(a_component_of_vivado_has_registers_behind_its_interface
              "TAP[0] 30 rw =0 ~ffffffff\nTAP[1] 34 rw =0 ~ffffffff\n");
 }
 
+// Vivado HLS states their size in bytes.
+BOOST_FIXTURE_TEST_CASE(a_memory_of_vivado_hls_is_its_words, Folder) {
+  const std::string access = tag("access", "read-write");
+  const auto maps = read(
+      "component.xml", component(block(one("CTRL", "0", tag("size", "32") + access) +
+                                       one("Memory_taps_V", "0x40", tag("size", "80") + access))));
+  BOOST_TEST_REQUIRE(maps.front().registers.size() == 21u);
+  BOOST_TEST(maps.front().registers[1].name == "taps_V[0]");
+  BOOST_TEST(maps.front().registers[1].offset == 0x50u);
+  BOOST_TEST(maps.front().registers[20].name == "taps_V[19]");
+  BOOST_TEST(maps.front().registers[20].offset == 0x9Cu);
+  BOOST_TEST(maps.front().registers[20].access == "rw");
+  BOOST_TEST(refusal("a.xml", component(block(one("Memory_m", "0", tag("size", "400000"))))) ==
+             "a.xml:3: a memory of more than 65536 words");
+}
+
 BOOST_FIXTURE_TEST_CASE(a_header_of_vitis_names_registers_bits_and_memories, Folder) {
   const auto maps = read("xfir_hw.h", hls);
   BOOST_REQUIRE(maps.size() == 1u);

@@ -182,6 +182,24 @@ end;
 }
 
 // The common template of vendors; Yosys takes it for one that Virtex-6 cannot build.
+// GHDL takes a constant of 64 bits whose lower half is 0 for 0. What it makes of one alone is put
+// right; what it reckons from one is not known.
+BOOST_AUTO_TEST_CASE(what_is_reckoned_from_a_lost_constant_is_refused) {
+  const auto source = [&](const std::string& value) {
+    write("lost.vhd", logic +
+                          "entity lost is port (a, z : out std_logic_vector(63 downto 0)); "
+                          "end;\narchitecture rtl of lost is\n"
+                          "  constant one : unsigned(63 downto 0) := x\"3FF0000000000000\";\n"
+                          "begin\n  z <= (others => '0');\n  a <= std_logic_vector(" +
+                          value + ");\nend;\n");
+  };
+  source("one");
+  BOOST_TEST(refusal("lost") == "");
+  source("one + 1");
+  check_says(refusal("lost"),
+             {"lost.vhd:6: x\"3FF0000000000000\"", "takes such a constant for 0", "signal"});
+}
+
 BOOST_AUTO_TEST_CASE(a_memory_with_two_clocks_that_reads_first_is_a_block_ram) {
   write("ram.vhd", logic + R"(
 entity ram is
