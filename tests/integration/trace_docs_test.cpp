@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(every_command_of_the_page_works) {
       const bool finds = command.find("trace check") != std::string::npos;
       BOOST_TEST(outcome.exit_code == (finds ? 1 : 0), outcome.err);
       if (finds) {
-        BOOST_TEST(outcome.out.find("FAIL no_feature_lost at 19.91065 ms") != std::string::npos);
+        BOOST_TEST(outcome.out.find("FAIL no_feature_lost at 19.88667 ms") != std::string::npos);
       }
     }
   }
