@@ -88,7 +88,8 @@ void HostWatch::on_host_tick(std::uint64_t spent_ns, void* context) {
   count(spent_ns);
   const bool runs = ProgramWatch::runs;
   const bool told_before = told_;
-  if (runs && told_before && !ProgramWatch::ends_itself) return vp::FaultTrap::leave_from_signal(context);
+  if (runs && told_before && !ProgramWatch::ends_itself)
+    return vp::FaultTrap::leave_from_signal(context);
   told_ = ProgramWatch::stop != ProgramWatch::Stop::none;
   // Each call of the HAL sets the number of basic blocks anew.
   if (told_) ProgramWatch::ask_to_stop(ProgramWatch::stop);
