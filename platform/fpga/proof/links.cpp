@@ -78,12 +78,12 @@ namespace {
 /// Throws vp::InputError for what cannot be tied.
 void check_ties(const std::vector<Port>& ports, const Pins& pins) {
   for (const auto& [name, value] : pins.ties) {
-    const std::string& tied = name;
+    const std::string& tied = name;  // for lambdas, which cannot capture `name`
     const auto port = std::find_if(ports.begin(), ports.end(),
                                    [&tied](const Port& one) { return one.name == tied; });
     if (port == ports.end()) throw vp::InputError("--tie: the RTL has no port '" + name + "'");
     const auto refuse = [&](const std::string& why) {
-      throw vp::InputError(port->place + ": --tie: '" + name + "' " + why);
+      throw vp::InputError(port->place + ": --tie: '" + tied + "' " + why);
     };
     if (port->output) refuse("is an output: only inputs can be tied");
     if (name == pins.clock) refuse("is the clock: without edges there is nothing to prove");
