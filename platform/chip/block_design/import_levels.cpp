@@ -103,7 +103,7 @@ std::map<std::string, double> clock_wishes(const Handoff& handoff) {
       if (port.direction != 'I' || port.signal.empty()) continue;
       if (port.kind == "clk" && port.hz) wishes.emplace(port.signal, *port.hz);
       if (module.ip() != "clk_wiz" || port.name != "clk_in1") continue;
-      const auto mhz = vp::Decimal::parse(parameter(module.parameters, "PRIM_IN_FREQ"));
+      const auto mhz = vp::Decimal::parse(handoff::parameter(module.parameters, "PRIM_IN_FREQ"));
       if (mhz) wishes.emplace(port.signal, mhz->to_double() * 1e6);
     }
   }
