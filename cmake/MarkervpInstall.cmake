@@ -146,7 +146,6 @@ install(FILES
   cmake/MarkervpAssembly.h
   cmake/MarkervpHeap.cpp
   cmake/MarkervpRtl.cpp.in
-  cmake/MarkervpRtlNeeds.cmake
   cmake/MarkervpVerilated.cmake
   cmake/MarkervpVhdl.cmake
   cmake/MarkervpVendor.c

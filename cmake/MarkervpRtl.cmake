@@ -1,6 +1,5 @@
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVerilated.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVhdl.cmake")
-include("${CMAKE_CURRENT_LIST_DIR}/MarkervpRtlNeeds.cmake")
 
 # markervp_add_rtl(NAME [IP ip] TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE] [FIGURES]
 #   [INCLUDE_DIRS dir…] [DEFINES NAME[=VALUE]…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS o…] [GHDL_OPTIONS o…]
