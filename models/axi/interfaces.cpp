@@ -15,21 +15,6 @@ namespace axi {
 
 namespace {
 
-std::string small(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 /// "s_axi_awvalid": interface and signal. Behind the signal `_i` and `_o` are ignored.
 struct Split {
   std::string interface, signal;
@@ -44,7 +29,7 @@ std::optional<Split> split(const std::string& port) {
       std::regex::icase);
   std::smatch match;
   if (!std::regex_match(port, match, form)) return {};
-  return Split{match[1], small(match[2])};
+  return Split{match[1], vp::lower(match[2].str())};
 }
 
 /// How much two names begin alike: whole words first, as s00_axi is nearer to s00_axi_aclk than to
@@ -69,10 +54,10 @@ bool of_stream(const std::string& signal) {
 /// of LOCK and LEN.
 unsigned bits_of(const std::string& signal) {
   for (const char* end : {"valid", "ready", "last"}) {
-    if (ends_with(signal, end)) return 1;
+    if (vp::ends_with(signal, end)) return 1;
   }
-  if (ends_with(signal, "resp") || ends_with(signal, "burst")) return 2;
-  return ends_with(signal, "size") ? 3 : 0;
+  if (vp::ends_with(signal, "resp") || vp::ends_with(signal, "burst")) return 2;
+  return vp::ends_with(signal, "size") ? 3 : 0;
 }
 
 /// What one interface must have to be whole.
@@ -120,7 +105,8 @@ class Finder {
   /// What is said of a port or of the prefix of several; "" if nothing is.
   std::string note(const char* what, const std::string& name) const {
     for (std::uint32_t i = 0; i < rtl_.note_count; ++i) {
-      if (std::string(rtl_.notes[i].what) == what && small(rtl_.notes[i].port) == small(name))
+      if (std::string(rtl_.notes[i].what) == what &&
+          vp::lower(rtl_.notes[i].port) == vp::lower(name))
         return rtl_.notes[i].text;
     }
     return {};
@@ -180,16 +166,16 @@ void Finder::check_notes() const {
   for (std::uint32_t i = 0; i < rtl_.note_count; ++i) {
     const RtlNote& note = rtl_.notes[i];
     if (std::string(note.what) != "interface") continue;
-    const std::string name = small(note.port);
+    const std::string name = vp::lower(note.port);
     const auto belongs = [&](const RtlPort& port) {
-      const std::string whole = small(port.name);
+      const std::string whole = vp::lower(port.name);
       return whole == name || whole.rfind(name + "_", 0) == 0;
     };
     if (std::none_of(rtl_.ports, rtl_.ports + rtl_.port_count, belongs))
       refuse(rtl_.place, option_ + " speaks of '" + note.port + "', and module '" + rtl_.top +
                              "' has no such port");
     for (std::uint32_t k = 0; k < i; ++k) {
-      if (std::string(rtl_.notes[k].what) == note.what && small(rtl_.notes[k].port) == name)
+      if (std::string(rtl_.notes[k].what) == note.what && vp::lower(rtl_.notes[k].port) == name)
         refuse(rtl_.place,
                option_ + " speaks of '" + note.port + "' twice: say all of it in one place");
     }
@@ -216,13 +202,13 @@ void Finder::group_ports() {
     std::string vlnv, interface, signal;
     if (info >> vlnv >> interface >> signal &&
         (vlnv.find(":aximm:") != vlnv.npos || vlnv.find(":axis:") != vlnv.npos)) {
-      at = Split{interface, small(signal)};
+      at = Split{interface, vp::lower(signal)};
     }
     if (!at || says(note("interface", at->interface), "wire") ||
         !note("interface", port(i).name).empty()) {
       continue;
     }
-    Interface& group = groups[{small(at->interface), of_stream(at->signal)}];
+    Interface& group = groups[{vp::lower(at->interface), of_stream(at->signal)}];
     if (group.ports.empty()) group.name = at->interface;
     group.kind = of_stream(at->signal) ? Kind::axi_stream : Kind::axi_lite;
     group.ports[at->signal] = i;
@@ -254,10 +240,10 @@ void Finder::classify(Interface& interface) const {
   for (const auto& [signal, number] : interface.ports) {
     if (const unsigned bits = bits_of(signal); bits != 0 && port(number).bits != bits)
       refuse(port(number).place, std::string("port '") + port(number).name + "' has " +
-                                     std::to_string(port(number).bits) + " bits: " + upper(signal) +
-                                     " of AXI has " + std::to_string(bits));
+                                     std::to_string(port(number).bits) + " bits: " +
+                                     vp::upper(signal) + " of AXI has " + std::to_string(bits));
     const bool answers =
-        ends_with(signal, "ready") != (signal.front() == 'b' || signal.front() == 'r');
+        vp::ends_with(signal, "ready") != (signal.front() == 'b' || signal.front() == 'r');
     const bool output = interface.slave ? answers : !answers;
     if ((port(number).output != 0) == output) continue;
     refuse(port(number).place, std::string("port '") + port(number).name + "' of the " +
@@ -268,14 +254,14 @@ void Finder::classify(Interface& interface) const {
 
 bool Finder::is_low(const std::string& name, const std::string& said) const {
   if (says(said, "low") || says(said, "high")) return says(said, "low");
-  const std::string polarity = small(parameter(note("parameter", name), "POLARITY"));
+  const std::string polarity = vp::lower(parameter(note("parameter", name), "POLARITY"));
   if (!polarity.empty()) return polarity == "active_low";
   for (const char* end : {"resetn", "rstn", "rst_n", "reset_n", "rst_ni", "reset_ni"}) {
-    if (ends_with(small(name), end)) return true;
+    if (vp::ends_with(vp::lower(name), end)) return true;
   }
   // ARESETn without its n, and what high-level synthesis calls a reset that is high.
   for (const char* end : {"areset", "ap_rst"}) {
-    if (ends_with(small(name), end)) return false;
+    if (vp::ends_with(vp::lower(name), end)) return false;
   }
   const auto* place = std::find_if(rtl_.ports, rtl_.ports + rtl_.port_count,
                                    [&](const RtlPort& port) { return port.name == name; });
@@ -315,7 +301,7 @@ Interface Finder::single(std::uint32_t number) const {
   } else if (is("interrupt",
                 "signal:interrupt:", !one.slave && std::regex_match(one.name, interrupt))) {
     one.kind = Kind::interrupt;
-    const std::string sense = small(parameter(note("parameter", one.name), "SENSITIVITY"));
+    const std::string sense = vp::lower(parameter(note("parameter", one.name), "SENSITIVITY"));
     one.edge = says(said, "rising") || sense == "edge_rising";
   }
   if (one.kind != Kind::wire && !bit)
@@ -340,9 +326,9 @@ std::vector<std::string> Finder::clocks() const {
 
 bool Finder::is_associated(const std::string& clock, const std::string& name) const {
   const std::string text = note("parameter", clock);
-  const std::string associated = ":" + small(parameter(text, "ASSOCIATED_BUSIF")) + ":" +
-                                 small(parameter(text, "ASSOCIATED_RESET")) + ":";
-  return associated.find(":" + small(name) + ":") != associated.npos;
+  const std::string associated = ":" + vp::lower(parameter(text, "ASSOCIATED_BUSIF")) + ":" +
+                                 vp::lower(parameter(text, "ASSOCIATED_RESET")) + ":";
+  return associated.find(":" + vp::lower(name) + ":") != associated.npos;
 }
 
 void Finder::find_clock(Interface& interface) const {
@@ -360,7 +346,7 @@ void Finder::find_clock(Interface& interface) const {
   std::pair<std::size_t, std::size_t> longest;
   for (const std::string& name : names) {
     if (is_associated(name, interface.name)) associated.push_back(name);
-    const auto common = common_start(small(name), small(interface.name));
+    const auto common = common_start(vp::lower(name), vp::lower(interface.name));
     if (common > longest) best.clear();
     if (common >= longest) best.push_back(name);
     longest = std::max(longest, common);

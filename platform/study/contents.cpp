@@ -3,6 +3,7 @@
 #include <host/digest.h>
 #include <host/document.h>
 #include <host/process.h>
+#include <vp/text.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,10 +15,6 @@ namespace platform::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 /// Parts of an installation that are no data tables.
 bool is_table(const fs::path& relative) {
@@ -46,7 +43,7 @@ Json program_identity(const std::string& version, const std::string& revision) {
   Json json;
   json["version"] = version;
   json["revision"] = revision;
-  if (revision.empty() || ends_with(revision, "-dirty"))
+  if (revision.empty() || vp::ends_with(revision, "-dirty"))
     json["executable"] = host::file_hash("/proc/self/exe");
   return json;
 }

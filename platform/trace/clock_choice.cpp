@@ -19,10 +19,6 @@ constexpr std::size_t most_clocks = 4;
 
 }  // namespace
 
-bool ends_with(std::string_view text, std::string_view end) {
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
 std::string_view leaf_of(std::string_view path) {
   return path.substr(path.rfind('.') + 1);
 }
@@ -91,7 +87,7 @@ std::optional<std::size_t> ClockSet::named(const std::vector<std::string>& names
   const ClockEdge* edge = options_.clock ? &*options_.clock : nullptr;
   for (const auto& [link, own] : options_.clock_of_link) {
     for (const std::string& name : names) {
-      if (link == name || ends_with(name, "." + link)) edge = &own;
+      if (link == name || vp::ends_with(name, "." + link)) edge = &own;
     }
   }
   if (!edge) return std::nullopt;

@@ -80,7 +80,6 @@ std::pair<std::size_t, std::size_t> nearness(std::string_view link, std::string_
 /// A bit that is called a clock, and not the reset of one.
 bool may_be_clock(std::string_view path, const vp::WaveVariable& variable);
 
-bool ends_with(std::string_view text, std::string_view end);
 /// What is behind the last '.'.
 std::string_view leaf_of(std::string_view path);
 /// "pl.filter" of "pl.filter.sum"; empty without a level.

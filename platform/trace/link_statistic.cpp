@@ -118,8 +118,8 @@ class LinkStatistic final : public Statistic {
 
 void LinkStatistic::add_link(std::uint32_t variable) {
   const std::string& path = file_.paths()[variable];
-  const bool capitals = ends_with(path, "VALID");
-  if (!capitals && !ends_with(path, "valid")) return;
+  const bool capitals = vp::ends_with(path, "VALID");
+  if (!capitals && !vp::ends_with(path, "valid")) return;
   constexpr std::size_t word = 5;
   const std::string stem = path.substr(0, path.size() - word);
   const auto part = [&](const char* name) {
@@ -131,14 +131,14 @@ void LinkStatistic::add_link(std::uint32_t variable) {
   const std::string_view leaf = leaf_of(stem);
   // A stream that has a scope to itself is called after it.
   link.name = vp::lower(leaf) == "t" && leaf.size() < stem.size() ? stem.substr(0, stem.size() - 2)
-              : ends_with(vp::lower(leaf), "_t")                  ? stem.substr(0, stem.size() - 2)
+              : vp::ends_with(vp::lower(leaf), "_t")              ? stem.substr(0, stem.size() - 2)
                                                                   : stem;
   link.interface = link.name;
   const std::string small = vp::lower(leaf);
   for (const char* channel : {"aw", "ar", "w", "b", "r"}) {
-    if (!ends_with(small, channel)) continue;
+    if (!vp::ends_with(small, channel)) continue;
     link.interface = stem.substr(0, stem.size() - std::string_view(channel).size());
-    while (ends_with(link.interface, "_") || ends_with(link.interface, "."))
+    while (vp::ends_with(link.interface, "_") || vp::ends_with(link.interface, "."))
       link.interface.pop_back();
     break;
   }

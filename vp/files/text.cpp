@@ -117,6 +117,18 @@ std::string lower(std::string_view text) {
   return small;
 }
 
+std::string upper(std::string_view text) {
+  std::string capitals(text);
+  for (char& c : capitals) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return capitals;
+}
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
 std::string format_fixed(double value, int decimals) {
   char buffer[512];
   const auto result =

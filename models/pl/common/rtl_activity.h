@@ -10,7 +10,7 @@ namespace pl {
 
 /// How often the signals inside RTL change: the bits of its state that differ from one edge to the
 /// next. A copy of the state is taken at edges drawn at random, always the same ones, less often
-/// the larger it is; each stands for all edges since the one before. RTL that sleeps changes
+/// the larger it is; each counts for all edges since the one before. RTL that sleeps changes
 /// nothing.
 class RtlActivity {
  public:

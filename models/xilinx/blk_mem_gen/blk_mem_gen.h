@@ -31,7 +31,7 @@ struct BlkMemPortBuild {
 };
 
 struct BlkMemGenBuild {
-  /// The first port, and the second one if there is one: a port that a BRAM controller has is none.
+  /// One or two ports, without those that a BRAM controller is connected to.
   std::vector<BlkMemPortBuild> ports;
   std::uint32_t word_bits = 32;         ///< of its contents
   std::uint64_t words = 0;              ///< of this width, in all

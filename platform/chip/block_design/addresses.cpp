@@ -15,12 +15,6 @@ namespace {
 
 constexpr unsigned longest_way = 32;  ///< interconnects behind each other; more is a ring
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 }  // namespace
 
 void BlockDesign::join_addresses() {
@@ -66,7 +60,8 @@ vp::Router& BlockDesign::way_of(const End& master, const std::vector<std::string
     wanted = &router(way.front());
   } else {
     vp::Router*& direct = direct_of_[master.text()];
-    if (!direct) direct = &direct_.emplace_back((master.part + "_" + lower(master.port)).c_str());
+    if (!direct)
+      direct = &direct_.emplace_back((master.part + "_" + vp::lower(master.port)).c_str());
     wanted = direct;
   }
   if (first) {
@@ -78,7 +73,7 @@ vp::Router& BlockDesign::way_of(const End& master, const std::vector<std::string
   if (port == part.masters.end()) {
     // A master in a stub asks for nothing: what it is wired to is tied, once.
     if (part.any_output) {
-      no_master(master.part + "_" + lower(master.port)).bind(wanted->socket);
+      no_master(master.part + "_" + vp::lower(master.port)).bind(wanted->socket);
       first = wanted;
       return *wanted;
     }
@@ -114,7 +109,7 @@ std::uint64_t BlockDesign::base_of(const AddressSegment& segment) {
           return other.slave.part == segment.slave.part && other.slave.port != segment.slave.port;
         });
     const std::string name =
-        (has_others ? lower(segment.slave.port) + "_" : "") + "base_address" + number;
+        (has_others ? vp::lower(segment.slave.port) + "_" : "") + "base_address" + number;
     base = std::make_unique<vp::Parameter<std::uint64_t>>(
         name.c_str(), segment.base, vp::Unit::address, vp::Range<std::uint64_t>{0, 0xFFFF'FFFF},
         vp::Source::decision, "where software finds it, " + vp::hex(segment.size) + " bytes");
@@ -143,7 +138,7 @@ bool BlockDesign::is_seen_elsewhere(const AddressSegment& segment) {
 vp::Router& BlockDesign::windows_of(const AddressSegment& segment) {
   vp::Router*& windows = windows_of_[segment.slave.text()];
   if (windows) return *windows;
-  const std::string name = segment.slave.part + "_" + lower(segment.slave.port) + "_windows";
+  const std::string name = segment.slave.part + "_" + vp::lower(segment.slave.port) + "_windows";
   windows = &direct_.emplace_back(name.c_str());
   std::uint64_t size = 0;
   for (const AddressSegment& other : design_.addresses)
@@ -187,12 +182,12 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
       port->second.share(paths_[segment.slave.text()]);
   }
   const bool is_port = segment.slave.part == ps_;
-  std::string name = is_port ? lower(segment.slave.port) : segment.slave.part;
+  std::string name = is_port ? vp::lower(segment.slave.port) : segment.slave.part;
   const auto twice = std::count_if(
       design_.addresses.begin(), design_.addresses.end(), [&](const AddressSegment& other) {
         return other.slave.part == segment.slave.part && other.slave.port != segment.slave.port;
       });
-  if (!is_port && twice != 0) name += "_" + lower(segment.slave.port);
+  if (!is_port && twice != 0) name += "_" + vp::lower(segment.slave.port);
   name += number_of(segment);
   using Addresses = vp::Router::Addresses;
   for (std::size_t i = 0; i < routers.size(); ++i) {
@@ -200,7 +195,7 @@ void BlockDesign::join_segment(const AddressSegment& segment) {
     std::set<std::uint64_t>& bases = mapped_[std::string(routers[i]->name()) + "/" + name];
     if (!bases.insert(base).second) continue;
     // Masters of one bus may see a slave in two places: the bus has a range for each.
-    const std::string region = bases.size() == 1 ? name : name + "_" + lower(vp::hex(base));
+    const std::string region = bases.size() == 1 ? name : name + "_" + vp::lower(vp::hex(base));
     try {
       RegionSocket& socket =
           routers[i]->map(region, base, segment.size,
@@ -231,7 +226,7 @@ void BlockDesign::close_open_ports() {
       no_master(name).bind(router(name).socket);
     for (auto& [bus, port] : part.masters) {
       if (first_of_.count(name + "." + bus) == 0)
-        port.bind(direct_.emplace_back((name + "_" + lower(bus) + "_open").c_str()));
+        port.bind(direct_.emplace_back((name + "_" + vp::lower(bus) + "_open").c_str()));
     }
     for (auto& [bus, port] : part.slaves) {
       const bool is_seen =
@@ -243,7 +238,7 @@ void BlockDesign::close_open_ports() {
       if (part.open_slave) {
         part.open_slave(bus);
       } else {
-        port.bind(no_master(name + "_" + lower(bus)));
+        port.bind(no_master(name + "_" + vp::lower(bus)));
       }
     }
   }

@@ -16,12 +16,6 @@ using handoff::Handoff;
 using handoff::Module;
 using handoff::OwnDriver;
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
 /// The name in xparameters.h of a parameter of an IP: C_S00_AXI_BASEADDR is S00_AXI_BASEADDR.
 std::string plain(const std::string& parameter) {
   return parameter.rfind("C_", 0) == 0 ? parameter.substr(2) : parameter;
@@ -49,7 +43,7 @@ class Tables {
     std::string text;
     const auto include = driver_.scripts.find("xdefine_include_file");
     if (include != driver_.scripts.end()) {
-      define(text, upper(word(include->second, 1)) + "_NUM_INSTANCES",
+      define(text, vp::upper(word(include->second, 1)) + "_NUM_INSTANCES",
              std::to_string(instances_.size()));
       each(text, include->second, 2, false);
     }
@@ -97,7 +91,7 @@ class Tables {
       for (std::size_t i = 2; i < words.size(); ++i) {
         const bool is_kind = is_sdt && words[i] == "DEVICE_ID";
         text += before + (is_kind ? '"' + kind_of(*module) + '"'
-                                  : "XPAR_" + upper(module->instance) + "_" + plain(words[i]));
+                                  : "XPAR_" + vp::upper(module->instance) + "_" + plain(words[i]));
         before = ", ";
       }
       text += "},\n";
@@ -121,7 +115,7 @@ class Tables {
     for (std::size_t n = 0; n < instances_.size(); ++n) {
       const std::string number = std::to_string(n);
       const std::string start =
-          by_driver ? upper(word(words, 1)) + "_" + number : upper(instances_[n]->instance);
+          by_driver ? vp::upper(word(words, 1)) + "_" + number : vp::upper(instances_[n]->instance);
       for (std::size_t i = first; i < words.size(); ++i) {
         if (words[i] == "NUM_INSTANCES") continue;
         const std::string value = words[i] == "DEVICE_ID"
@@ -143,8 +137,8 @@ class Tables {
     std::string lines;
     for (std::size_t n = 0; n < instances_.size(); ++n) {
       const std::string value = handoff::parameter(instances_[n]->parameters, *base);
-      define(lines, upper(instances_[n]->instance) + "_BASEADDR", value);
-      define(lines, upper(word(words, 1)) + "_" + std::to_string(n) + "_BASEADDR", value);
+      define(lines, vp::upper(instances_[n]->instance) + "_BASEADDR", value);
+      define(lines, vp::upper(word(words, 1)) + "_" + std::to_string(n) + "_BASEADDR", value);
     }
     if (!lines.empty()) text += "#ifdef SDT\n" + lines + "#endif\n";
   }
@@ -162,13 +156,13 @@ std::string label_names(const Handoff& handoff, const std::string& known) {
   std::set<std::string> seen, labels;
   std::map<std::string, unsigned> numbers;
   const auto& segments = handoff.ps().segments;
-  for (const handoff::Segment& segment : segments) labels.insert(upper(segment.instance));
+  for (const handoff::Segment& segment : segments) labels.insert(vp::upper(segment.instance));
   for (const handoff::Segment& segment : segments) {
     const Module* module = handoff.module(segment.instance);
     if (!module || module == &handoff.ps() || !seen.insert(segment.instance).second) continue;
-    const std::string label = upper(segment.instance);
+    const std::string label = vp::upper(segment.instance);
     if (known.find("#define XPAR_" + label + "_BASEADDR ") != std::string::npos) continue;
-    const std::string kind = upper(module->ip());
+    const std::string kind = vp::upper(module->ip());
     const std::string number = std::to_string(numbers[kind]++);
     std::vector<std::string> names{label};
     if (labels.count(kind + "_" + number) == 0) names.push_back(kind + "_" + number);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include <vp/text.h>
 #include <vp/unit.h>
 
 namespace platform::block_design {
@@ -17,23 +18,13 @@ using handoff::Netlist;
 using handoff::Pin;
 using handoff::Port;
 
-std::string small(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 /// How names of resets that are active at 0 end.
 constexpr const char* low_ends[] = {"resetn", "rstn", "rst_n", "reset_n", "rst_ni"};
 
 bool is_named_low(const std::string& name) {
-  const std::string low = small(name);
+  const std::string low = vp::lower(name);
   return std::any_of(std::begin(low_ends), std::end(low_ends),
-                     [&](const char* end) { return ends_with(low, end); });
+                     [&](const char* end) { return vp::ends_with(low, end); });
 }
 
 /// Through inverters, this many.
@@ -44,9 +35,9 @@ std::optional<bool> level_of(const Netlist& nets, const Pin& driver, unsigned in
   const std::string ip = driver.module->ip();
   const bool is_source = ip == "proc_sys_reset" || ip == "processing_system7";
   if (is_source) {
-    const std::string name = small(driver.port->name);
-    if (is_named_low(name) || ends_with(name, "_n")) return true;  // FCLK_RESET0_N
-    return ends_with(name, "reset") ? std::optional<bool>(false) : std::nullopt;
+    const std::string name = vp::lower(driver.port->name);
+    if (is_named_low(name) || vp::ends_with(name, "_n")) return true;  // FCLK_RESET0_N
+    return vp::ends_with(name, "reset") ? std::optional<bool>(false) : std::nullopt;
   }
   const bool inverts = ip == "util_vector_logic" &&
                        handoff::parameter(driver.module->parameters, "C_OPERATION") == "not";
@@ -67,7 +58,7 @@ bool takes_low(const Module& reset, const std::string& pin) {
 bool has_attribute(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return small(text).find("polarity") != std::string::npos;
+  return vp::lower(text).find("polarity") != std::string::npos;
 }
 
 }  // namespace
@@ -78,7 +69,7 @@ std::optional<bool> resets_low(const Netlist& nets, const Pin& driver) {
 
 bool leaves_level_open(const Port& port, const std::vector<std::string>& sources) {
   if (port.kind != "rst" || port.direction != 'I' || port.active_high) return false;
-  if (is_named_low(port.name) || small(port.name) == "ap_rst") return false;
+  if (is_named_low(port.name) || vp::lower(port.name) == "ap_rst") return false;
   return std::none_of(sources.begin(), sources.end(), has_attribute);
 }
 

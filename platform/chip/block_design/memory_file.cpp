@@ -32,7 +32,7 @@ class MemoryReader {
   std::vector<std::uint64_t> words() {
     unsigned radix = 0;
     while (true) {
-      const std::string key = lower(token());
+      const std::string key = vp::lower(token());
       if (key.empty()) fail("it has no memory_initialization_vector");
       if (token() != "=") fail("'" + vp::excerpt(key) + "' must be followed by '='");
       if (key == "memory_initialization_vector") break;
@@ -49,11 +49,6 @@ class MemoryReader {
   }
 
  private:
-  static std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  }
-
   unsigned radix_of(const std::string& text) {
     for (const unsigned radix : {2u, 10u, 16u})
       if (text == std::to_string(radix)) return radix;

@@ -11,7 +11,7 @@ namespace platform::block_design {
 /// and line.
 std::vector<std::uint64_t> read_memory_file(const std::string& text, const std::string& file);
 
-/// A hexadecimal number without prefix, as Vivado writes values of memories; 0 if it is none.
+/// A hexadecimal number without prefix, as Vivado writes values of memories; 0 if it is no number.
 std::uint64_t hex_number(const std::string& text);
 
 }  // namespace platform::block_design

@@ -12,10 +12,6 @@ namespace platform::handoff {
 
 namespace {
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 std::string stem(const std::string& path) {
   return std::filesystem::path(path).stem().string();
 }
@@ -41,7 +37,7 @@ std::vector<std::string> listed_designs(const Archive& archive, const std::strin
 std::vector<std::string> likely_designs(const Archive& archive) {
   std::vector<std::string> names;
   for (const std::string& name : archive.names()) {
-    if (ends_with(name, ".hwh") &&
+    if (vp::ends_with(name, ".hwh") &&
         archive.read(name).find(":processing_system7:") != std::string::npos)
       names.push_back(name);
   }
@@ -50,7 +46,7 @@ std::vector<std::string> likely_designs(const Archive& archive) {
 
 bool lists_pieces(const Archive& archive) {
   return std::any_of(archive.names().begin(), archive.names().end(), [&](const std::string& name) {
-    return ends_with(name, ".hwh") &&
+    return vp::ends_with(name, ".hwh") &&
            archive.read(name).find("MODTYPE=\"ps7_cortexa9\"") != std::string::npos;
   });
 }
@@ -75,7 +71,7 @@ Handoff read_archive(const Archive& archive, const std::string& file, const std:
   if (names.empty()) {
     const bool has_hwh =
         std::any_of(archive.names().begin(), archive.names().end(),
-                    [](const std::string& name) { return ends_with(name, ".hwh"); });
+                    [](const std::string& name) { return vp::ends_with(name, ".hwh"); });
     throw vp::InputError("'" + file + "' " +
                          (!has_hwh ? "holds no hand-off (.hwh): export the hardware again"
                           : lists_pieces(archive)

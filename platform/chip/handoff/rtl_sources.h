@@ -32,7 +32,7 @@ class RtlFinder {
   /// file that cannot be read.
   std::vector<OwnDriver> drivers(const Handoff& handoff) const;
   /// A file that a project names relative to a folder of its own: the one whose path ends so, or
-  /// the only one of that name; "" if there is none, or several.
+  /// the only one of that name. Empty if no file or several have it.
   std::string data_file(const std::string& path) const;
   /// No folder was named.
   bool empty() const { return empty_; }

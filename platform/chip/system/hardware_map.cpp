@@ -28,12 +28,6 @@ using xparameters::Device;
 /// What Vivado states for the 666,666,667 Hz of a ZedBoard: it multiplies 33.333333 MHz.
 constexpr std::uint64_t usual_cpu_hz = 666'666'667, vivado_cpu_hz = 666'666'687;
 
-std::string capitals(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
 }  // namespace
 
 std::vector<xparameters::FabricInterrupt> fabric_interrupts(Zynq& zynq,
@@ -44,7 +38,7 @@ std::vector<xparameters::FabricInterrupt> fabric_interrupts(Zynq& zynq,
       if (!intc->intr(n).bound()) continue;
       const xilinx::BitOrigin origin = xilinx::Wiring::origin(*intc->intr(n).signal(), 0);
       if (origin.signal && origin.signal->get_parent_object() == &module)
-        list.push_back({capitals(origin.signal->basename()), capitals(intc->basename()), n});
+        list.push_back({vp::upper(origin.signal->basename()), vp::upper(intc->basename()), n});
     }
   }
   return list;
@@ -55,7 +49,7 @@ namespace {
 /// A device with its lines to the interrupt controllers.
 Device at_place(Zynq& zynq, const HardwareMap& map, const HardwareMap::Device& place,
                 const sc_core::sc_object* module) {
-  Device device{capitals(place.name),
+  Device device{vp::upper(place.name),
                 {},
                 static_cast<std::uint32_t>(place.base),
                 static_cast<std::uint32_t>(place.base + place.size - 1),
@@ -66,11 +60,11 @@ Device at_place(Zynq& zynq, const HardwareMap& map, const HardwareMap::Device& p
   // The outputs of a part of a block design are its own, not those of a register interface.
   const auto* slave = dynamic_cast<const axi::RtlPart*>(module->get_parent_object());
   const sc_core::sc_object* part = slave ? slave : module;
-  device.part = capitals(part->basename());
+  device.part = vp::upper(part->basename());
   for (const auto& interrupt : map.interrupts) {
     const sc_core::sc_object* line = sc_core::sc_find_object(interrupt.source.c_str());
     if (line && line->get_parent_object() == part)
-      device.interrupts.emplace_back(capitals(line->basename()), interrupt.id);
+      device.interrupts.emplace_back(vp::upper(line->basename()), interrupt.id);
   }
   device.fabric_interrupts = fabric_interrupts(zynq, *module);
   return device;
@@ -98,7 +92,7 @@ Device without_bank(Zynq& zynq, const HardwareMap& map, const HardwareMap::Devic
     for (const auto* slave : vp::all_below<xilinx::RegisterStub::Slave>(*stub))
       interfaces.emplace_back(slave->basename());
   }
-  if (interfaces.size() == 1) device.name += "_" + capitals(interfaces.front());
+  if (interfaces.size() == 1) device.name += "_" + vp::upper(interfaces.front());
   return device;
 }
 

@@ -16,12 +16,6 @@ namespace {
 /// Requests that a manager has under way at a time: more are a matter of depth, not of rules.
 constexpr unsigned most_open = 7;
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
 /// A channel of a link: what goes along with its VALID.
 struct Channel {
   std::string prefix;
@@ -127,7 +121,7 @@ class LinkRules {
   bool drives(const Channel& channel) const { return channel.of_manager != link_.slave; }
   std::string rule_of(const Channel& channel, const std::string& what) const {
     return (link_.kind == Link::Kind::axi_stream ? "AXI4STREAM_ERR" : "AXI4_ERR") +
-           std::string(channel.of_manager ? "M_" : "S_") + upper(what);
+           std::string(channel.of_manager ? "M_" : "S_") + vp::upper(what);
   }
   void broken(const std::string& rule, const std::string& when) {
     rules.emplace_back(own(rule), when);
@@ -232,7 +226,7 @@ void LinkRules::count() {
     const std::string exokay =
         fmt::format("{} && {} == 1", net(std::string(1, *response) + "valid"), net(response));
     if (link_.slave)
-      broken("AXI4_ERRS_" + upper(response) + "_EXOKAY", "!reset && " + exokay);
+      broken("AXI4_ERRS_" + vp::upper(response) + "_EXOKAY", "!reset && " + exokay);
     else
       assumed.push_back("!(" + exokay + ")");
   }

@@ -42,16 +42,11 @@ struct Node {
   }
 };
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /// Reads a whole word; OpenCV and YAML write ".Nan" and "-.Inf".
 std::optional<double> number(std::string_view word) {
   const bool has_plus = !word.empty() && word.front() == '+';
   const bool is_negative = !word.empty() && word.front() == '-';
-  std::string text = lower(std::string(word.substr(has_plus || is_negative ? 1 : 0)));
+  std::string text = vp::lower(std::string(word.substr(has_plus || is_negative ? 1 : 0)));
   if (text == ".nan" || text == ".inf") text.erase(0, 1);
   double value = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -371,7 +366,7 @@ std::string other_format(const std::string& text) {
 
 std::string plain_name(const std::string& name) {
   std::string text;
-  for (const char c : lower(name))
+  for (const char c : vp::lower(name))
     if (c != '_' && c != '-' && c != ' ') text += c;
   return text;
 }

@@ -47,7 +47,7 @@ bool may_be_role(std::string_view word) {
   const std::size_t letters = word.find_last_not_of("0123456789") + 1;
   const std::string_view named = word.substr(0, letters);
   return std::any_of(ends.begin(), ends.end(), [&](std::string_view end) {
-    return ends_with(word, end) || ends_with(named, end);
+    return vp::ends_with(word, end) || vp::ends_with(named, end);
   });
 }
 
@@ -60,7 +60,7 @@ bool is_anchor(std::string_view word) {
   const std::string_view named = word.substr(0, letters);
   return word == "n" || word == "irqs" ||
          std::any_of(ends.begin(), ends.end(), [&](std::string_view end) {
-           return ends_with(word, end) || ends_with(named, end);
+           return vp::ends_with(word, end) || vp::ends_with(named, end);
          });
 }
 

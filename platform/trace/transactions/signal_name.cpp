@@ -100,7 +100,7 @@ bool SignalName::ends_in(std::string_view role) const {
   if (words.empty()) return false;
   constexpr std::size_t clear = 5;
   if (role.size() >= clear && (role.substr(0, 2) == "aw" || role.substr(0, 2) == "ar") &&
-      ends_with(words.back(), role)) {
+      vp::ends_with(words.back(), role)) {
     return true;
   }
   std::size_t left = role.size();
@@ -131,7 +131,7 @@ std::string name_without(const std::string& path, std::string_view role) {
   // The role's letters from the right, behind a direction and with separators in between.
   for (const std::string_view direction : directions) {
     const std::string suffix = "_" + std::string(direction);
-    if (ends_with(vp::lower(name), suffix)) {
+    if (vp::ends_with(vp::lower(name), suffix)) {
       name.erase(name.size() - suffix.size());
       break;
     }
@@ -152,7 +152,7 @@ std::string name_without(const std::string& path, std::string_view role) {
       again = false;
       const std::string own = vp::lower(name);
       const auto cut = [&](std::string_view word) {
-        if (again || !ends_with(own, word) || own.size() == word.size()) return;
+        if (again || !vp::ends_with(own, word) || own.size() == word.size()) return;
         const char before = own[own.size() - word.size() - 1];
         if (before != '_' && before != '.') return;
         name.erase(name.size() - word.size());

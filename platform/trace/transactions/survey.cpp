@@ -56,11 +56,11 @@ std::optional<bool> reset_of(const std::string& path) {
     if (c != '_') leaf += c;
   }
   for (const char* end : {"resetn", "rstn", "resetni", "rstni", "resetb", "rstb"}) {
-    if (ends_with(leaf, end)) return true;
+    if (vp::ends_with(leaf, end)) return true;
   }
   if (leaf == "nreset" || leaf == "nrst") return true;
   for (const char* end : {"reset", "rst", "rsti"}) {
-    if (ends_with(leaf, end)) return false;
+    if (vp::ends_with(leaf, end)) return false;
   }
   return std::nullopt;
 }

@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(a_black_square_is_no_marker) {
   BOOST_TEST(detect(drawn(dictionary, 0xFFEF)) == Refusal::unknown);
 }
 
-// Chance makes words of 4x4 cells: a cell that may be either is none of theirs.
+// Chance makes words of 4x4 cells: a cell that may be either belongs to none of them.
 BOOST_AUTO_TEST_CASE(a_cell_between_black_and_white_is_no_word_of_small_dictionaries) {
   const auto with_grey_cell = [](const Dictionary& dictionary, std::uint8_t level) {
     std::vector<std::uint8_t> pixels = drawn(dictionary, dictionary.words[5]);

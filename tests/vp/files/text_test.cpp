@@ -107,4 +107,16 @@ BOOST_AUTO_TEST_CASE(numbers_do_not_depend_on_the_locale) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
+BOOST_AUTO_TEST_CASE(letters_of_ascii_only) {
+  BOOST_TEST(vp::lower("S00_AXI \u00C4") == "s00_axi \u00C4");
+  BOOST_TEST(vp::upper("s00_axi \u00E4") == "S00_AXI \u00E4");
+}
+
+BOOST_AUTO_TEST_CASE(ends_of_texts) {
+  BOOST_TEST(vp::ends_with("aresetn", "resetn"));
+  BOOST_TEST(vp::ends_with("aresetn", ""));
+  BOOST_TEST(!vp::ends_with("aresetn", "reset"));
+  BOOST_TEST(!vp::ends_with("n", "aresetn"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

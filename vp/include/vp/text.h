@@ -26,6 +26,9 @@ std::vector<std::string> split(std::string_view text, char separator);
 std::string_view trim(std::string_view text);
 /// Letters of ASCII as small ones, whatever the locale.
 std::string lower(std::string_view text);
+/// Letters of ASCII as capitals, whatever the locale.
+std::string upper(std::string_view text);
+bool ends_with(std::string_view text, std::string_view end);
 /// With `decimals` places after the point ("12.30"), whatever the locale. Never "-0.00".
 std::string format_fixed(double value, int decimals);
 /// "0x41200000": at least eight digits, for messages.
