@@ -213,9 +213,23 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
     placed.slaves[port] = {[&ps](RegionSocket& socket) { socket.bind(ps.s_axi_hp0.socket); }, true};
   }
   for (const auto& [pin, source] : part.pins) {
-    if (placed.inputs.count(pin) == 0) placed.unused_inputs.insert(pin);
+    if (placed.inputs.count(pin) != 0) continue;
+    placed.unused_inputs.insert(pin);
+    if (pin == "Core1_nFIQ" || pin == "Core1_nIRQ") tell_of_lost_interrupt(pin, source);
   }
   return placed;
+}
+
+/// Core 1 has no private interrupts of the logic here. A constant is none.
+void BlockDesign::tell_of_lost_interrupt(const std::string& pin, const End& source) {
+  const PlacedPart* driver = design_.part(source.part);
+  const IpRule* rule = driver ? driver->rule() : nullptr;
+  if (rule && rule->ip == "xlconstant") return;
+  lacking_.push_back(ps_ + "." + pin);
+  vp::warn(*this, "/markervp/block_design/interrupt",
+           source.place + ": '" + ps_ + "." + pin + "' is not modelled: interrupts of '" +
+               source.text() + "' never come, and verdicts that rest on them are unknown; " +
+               "IRQ_F2P reaches both cores");
 }
 
 vp::Clock* BlockDesign::clock_of(const End& source) {

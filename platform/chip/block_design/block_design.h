@@ -91,6 +91,7 @@ class BlockDesign : public sc_core::sc_module, public Design, public UnitSource 
   void join_pins(const PlacedPart& part);
   void join_serial_lines();
   void join_memories();
+  void tell_of_lost_interrupt(const std::string& pin, const End& source);
   void join_streams();
   void join_stream(const End& master, const End& slave);
   vp::AxiStream& make_stream(const End& master);

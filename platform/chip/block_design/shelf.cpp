@@ -283,7 +283,7 @@ std::vector<IpRule> rules() {
        "processing system (UG585): M_AXI_GP0 and GP1, S_AXI_GP0, GP1, HP0 to HP3 and ACP to the "
        "DDR (ACP without coherence, so warnings of caches are those of HP), FCLK 0 to 3, IRQ_F2P, "
        "Core0_nFIQ and Core0_nIRQ, "
-       "EMIO GPIO; other pins drive 0"},
+       "EMIO GPIO; other pins drive 0, and Core1_nFIQ and Core1_nIRQ are not taken (warning)"},
       {"axi_dma", Kind::model,
        "AXI DMA, direct and scatter-gather (PG021); of a memory map wider than the stream MM2S has "
        "the stream's width: the same bytes, longer on the bus",

@@ -3,6 +3,7 @@
 #include <chip/handoff/device_tree.h>
 #include <chip/system/hardware_map.h>
 #include <vp/error.h>
+#include <vp/report.h>
 #include <vp/text.h>
 #include <xilinx/axi_dma/axi_dma.h>
 #include <xilinx/axi_gpio/axi_gpio.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -131,6 +133,21 @@ BOOST_AUTO_TEST_CASE(a_private_interrupt_of_the_logic_reaches_its_number) {
              std::string::npos);
   BOOST_TEST(device_tree::shared_interrupt(31) == (std::vector<std::uint32_t>{1, 15, 0x304}),
              boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(a_private_interrupt_of_core_1_is_warned_of) {
+  const auto warnings_of = [](const std::string& source) {
+    std::ostringstream text;
+    vp::ReportRouter reports;
+    reports.redirect(text);
+    const std::string design = replaced(small_design(), "parts:\n",
+                                        "parts:\n  zero: {ip: 'xilinx.com:ip:xlconstant:1.1'}\n");
+    const Built chip(replaced(design, "      IRQ_F2P: lines.dout",
+                              "      Core1_nIRQ: " + source + "\n      IRQ_F2P: lines.dout"));
+    return reports.count("/markervp/block_design/interrupt");
+  };
+  BOOST_TEST(warnings_of("axi_gpio_0.ip2intc_irpt") == 1u);
+  BOOST_TEST(warnings_of("zero.dout") == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(an_interrupt_of_a_stub_is_one_line) {
