@@ -179,6 +179,9 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::optional<std::uint64_t> main_end_ps() const {
     return works_after_main_ || reached_limit_ ? main_end_ps_ : std::nullopt;
   }
+  /// An event at `ps` only ends what takes too long: a program whose main() has returned does not
+  /// wait for it, nor for what comes later.
+  void give_up_at(std::uint64_t ps) { give_up_ps_ = ps; }
   /// Throws what ended the program: vp::ProtocolError, or what a model or the test bench threw.
   /// Nothing if it finished or was interrupted. A program that neither ended nor can go on is
   /// vp::ProtocolError too: call it after the simulation.
@@ -327,6 +330,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   }
   void run_handler();
   void leave_interrupt();
+  bool more_happens() const;
   bool lives_after_main() const;
   void stay_after_main();
   void tell_cache(CacheCall call, const void* data, std::size_t size) const;
@@ -398,6 +402,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::uint64_t end_ps_ = 0;
   bool reached_limit_ = false;
   std::optional<std::uint64_t> main_end_ps_;
+  std::optional<std::uint64_t> give_up_ps_;
   std::optional<std::uint64_t> over_ps_;  ///< the end, where nothing was left to do after main()
   bool works_after_main_ = false;
   std::exception_ptr error_;

@@ -64,6 +64,12 @@ void Injector::plan(std::uint64_t at_ps, std::function<void()> action) {
   start();
 }
 
+void Injector::plan_end(std::uint64_t at_ps, std::function<void()> give_up) {
+  plans_.clear();
+  plan(at_ps, std::move(give_up));
+  zynq_.ps.cpu.give_up_at(at_ps);
+}
+
 void Injector::plan_from_edge(std::uint64_t after_ps, std::function<void()> action) {
   plans_.emplace(zynq_.scheduler.now_ps() + after_ps, std::move(action));
   zynq_.scheduler.notify(planned_);

@@ -67,6 +67,9 @@ class Injector {
   /// Calls `action` at a time, now or later; those of one time in the order of the calls. Before
   /// the run, or from an action.
   void plan(std::uint64_t at_ps, std::function<void()> action);
+  /// From an action: `give_up` at a time, in the place of all that is planned. Programs whose
+  /// main() has returned do not wait for it.
+  void plan_end(std::uint64_t at_ps, std::function<void()> give_up);
   /// The same for a time that a clock edge finds: `after_ps` from the present instant on.
   void plan_from_edge(std::uint64_t after_ps, std::function<void()> action);
 

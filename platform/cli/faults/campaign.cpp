@@ -13,6 +13,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <unordered_map>
 #include <utility>
@@ -33,13 +34,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// A console's lines may hold any bytes; JSON holds UTF-8 only.
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 /// A copy that takes longer than that on the host has failed.
 constexpr int longest_copy_ms = 600'000;
 
 /// The platform of a campaign in this process, with all its inputs in memory.
 class Subject {
  public:
-  explicit Subject(const CampaignFile& file) {
+  explicit Subject(const CampaignFile& file) : noticed_(file.noticed) {
     RunOptions options;
     options.program = file.program;
     options.fidelity = file.fidelity;
@@ -51,6 +57,7 @@ class Subject {
     SimulationOptions asked;
     asked.program = file.program;
     asked.timeline_frames = 0;
+    asked.console = &console_;
     simulation_ = build(configuration_, asked);
     const auto& classes = file.classes;
     if (std::find(classes.begin(), classes.end(), FaultSpace::on_request) != classes.end())
@@ -83,11 +90,14 @@ class Subject {
       witness.exit_code = facts.end->exit_code;
     }
     for (const std::string& warning : facts.warnings) witness.add_warning(warning);
+    witness.add_console(console_.str(), noticed_);
     witness.end_ps = simulation_->zynq().scheduler.now_ps();
     return witness;
   }
 
  private:
+  const std::vector<std::string> noticed_;
+  std::ostringstream console_;
   vp::Configuration configuration_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<facts::SharedInput> inputs_;
@@ -97,7 +107,7 @@ class Subject {
 /// that process says of its failure.
 Json in_child(const std::function<Json()>& work) {
   host::Child child([&work](std::ostream& out, std::ostream&) {
-    out << work().dump();
+    out << text_of(work());
     return host::done;
   });
   const host::ChildEnd end = child.wait();
@@ -249,13 +259,13 @@ class Carrier {
     copy_ = i;
     writing_ = writing;
     Simulation& simulation = subject_.simulation();
+    simulation.injector().plan_end(latest_ps_, [] { Simulation::interrupt(); });
     try {
       simulation.zynq().ps.leave_memory_to_parent();
       simulation.inject(fault_of(campaign_.shots[i]), "campaign");
     } catch (const vp::InputError& error) {
       answer(Outcome::broken, 0, error.what());
     }
-    simulation.injector().plan(latest_ps_, [] { Simulation::interrupt(); });
   }
 
   [[noreturn]] void finish_copy(const Witness& seen) {
@@ -264,7 +274,7 @@ class Carrier {
   }
 
   [[noreturn]] void answer(Outcome outcome, std::uint64_t times, const std::string& why) const {
-    write_all(writing_, Json{*copy_, to_string(outcome), times, why}.dump());
+    write_all(writing_, text_of(Json{*copy_, to_string(outcome), times, why}));
     ::_exit(0);
   }
 

@@ -37,6 +37,7 @@ class CampaignReader : private vp::YamlReader {
           [&](const YAML::Node& node) { campaign.repeat = whole(node, "repeat", 1, 1000); }},
          {"classes", [&](const YAML::Node& node) { campaign.classes = classes(node); }},
          {"below", [&](const YAML::Node& node) { campaign.below = scalars(node, "below"); }},
+         {"noticed", [&](const YAML::Node& node) { campaign.noticed = scalars(node, "noticed"); }},
          {"patience",
           [&](const YAML::Node& node) {
             campaign.patience_ps = quantity(node, "patience", vp::Unit::time, most_patience_ps);

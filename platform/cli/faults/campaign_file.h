@@ -17,6 +17,7 @@ namespace platform::cli {
 ///   classes: [bus, register]     # none: all
 ///   below: [pl.axi_dma_0]        # none: everywhere
 ///   set: {ps.cores: 1}
+///   noticed: [retry, ERROR]      # a line of the console with it says that something went wrong
 ///   simulate: all                # needed: not those whose outcome is known without
 ///   patience: 200 ms             # how long a run with a fault may take longer
 struct CampaignFile {
@@ -30,6 +31,7 @@ struct CampaignFile {
   std::uint64_t repeat = 1;  ///< times that the inputs are run
   std::vector<std::string> classes;
   std::vector<std::string> below;
+  std::vector<std::string> noticed;  ///< texts in lines of the console
   bool simulates_all = false;
   /// Beyond the end of the run without faults, before a run with one is a hang; at least that run's
   /// time. Programs that give a unit up after a second must come to it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <result/result_json.h>
 
@@ -60,7 +61,10 @@ void Witness::add(const facts::UnitReport& unit) {
   remove_times(json);
   for (const char* key : {"warnings", "camera"}) json.erase(key);
   // What a unit delivers, where it delivers something else than counts.
-  if (unit.extra || !unit.figures.empty()) json.erase("counts");
+  if (unit.extra || !unit.figures.empty()) {
+    json.erase("counts");
+    has_data_ = true;
+  }
   units.push_back(std::move(json));
   told.push_back(!unit.delivered() || unit.counts.lost() > 0);
   for (const std::string& warning : unit.warnings) add_warning(warning);
@@ -70,9 +74,25 @@ void Witness::add_warning(const std::string& warning) {
   warnings.push_back(without_time(warning));
 }
 
+void Witness::add_console(const std::string& text, const std::vector<std::string>& noticed) {
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const bool is_notice = std::any_of(noticed.begin(), noticed.end(), [&](const auto& part) {
+      return line.find(part) != std::string::npos;
+    });
+    if (is_notice) {
+      notices.push_back(line);
+    } else if (!has_data_) {
+      lines.push_back(line);
+    }
+  }
+}
+
 Json Witness::json() const {
-  return {{"units", units},         {"told", told},   {"warnings", warnings}, {"ended", ended},
-          {"exit_code", exit_code}, {"error", error}, {"end_ps", end_ps}};
+  return {{"units", units},         {"told", told},       {"warnings", warnings},
+          {"lines", lines},         {"notices", notices}, {"ended", ended},
+          {"exit_code", exit_code}, {"error", error},     {"end_ps", end_ps}};
 }
 
 Witness Witness::of(const Json& json) {
@@ -80,6 +100,8 @@ Witness Witness::of(const Json& json) {
   witness.units = json.at("units");
   json.at("told").get_to(witness.told);
   json.at("warnings").get_to(witness.warnings);
+  json.at("lines").get_to(witness.lines);
+  json.at("notices").get_to(witness.notices);
   json.at("ended").get_to(witness.ended);
   json.at("exit_code").get_to(witness.exit_code);
   json.at("error").get_to(witness.error);
@@ -121,21 +143,30 @@ Outcome classify(const Witness& right, const Witness& seen) {
     ++wrong;
     if (i >= seen.told.size() || !seen.told[i]) ++silent;
   }
-  const bool noticed = new_warning(right, seen) != nullptr ||
-                       (seen.ended && seen.exit_code != right.exit_code) || seen.told != right.told;
+  const bool told_all = new_warning(right, seen) != nullptr || seen.notices != right.notices ||
+                        (seen.ended && seen.exit_code != right.exit_code);
+  const bool noticed = told_all || seen.told != right.told;
+  const bool same_text = seen.lines == right.lines;
   if (seen.units.size() < count && (!seen.ended || seen.exit_code == right.exit_code))
     return Outcome::hang;
   if (right.ended && !seen.ended) return Outcome::hang;
-  if (wrong == 0 && seen.units.size() == count)
+  if (wrong == 0 && seen.units.size() == count && same_text)
     return noticed ? Outcome::recovered : Outcome::masked;
-  if (!noticed || (silent > 0 && !new_warning(right, seen) && seen.exit_code == right.exit_code))
-    return Outcome::unnoticed;
-  return count > 0 && is_right(right, seen, count - 1) ? Outcome::recovered : Outcome::reported;
+  if (!noticed || ((silent > 0 || !same_text) && !told_all)) return Outcome::unnoticed;
+  const auto last = [](const Witness& run) {
+    return run.lines.empty() ? std::string() : run.lines.back();
+  };
+  if (last(seen) != last(right)) return Outcome::reported;
+  return count == 0 || is_right(right, seen, count - 1) ? Outcome::recovered : Outcome::reported;
 }
 
 std::string sign(const Witness& right, const Witness& seen) {
   if (const std::string* warning = new_warning(right, seen)) return *warning;
-  return seen.error;
+  if (!seen.error.empty()) return seen.error;
+  const auto [expected, found] =
+      std::mismatch(right.lines.begin(), right.lines.end(), seen.lines.begin(), seen.lines.end());
+  if (found != seen.lines.end()) return "console: " + *found;
+  return expected == right.lines.end() ? "" : "console: without '" + *expected + "'";
 }
 
 Interval wilson(std::uint64_t hits, std::uint64_t count) {

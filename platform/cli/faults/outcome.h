@@ -14,19 +14,28 @@ struct Witness {
   nlohmann::ordered_json units = nlohmann::ordered_json::array();  ///< results, without times
   std::vector<bool> told;             ///< by unit: it says itself that something is wrong
   std::vector<std::string> warnings;  ///< of the whole run, without times
-  bool ended = false;                 ///< the program came to its end
+  /// Of the console, where no unit has data of its own: what the program delivers is its text.
+  std::vector<std::string> lines;
+  std::vector<std::string>
+      notices;         ///< lines of the console in which the program noticed something
+  bool ended = false;  ///< the program came to its end
   int exit_code = 0;
   std::string error;  ///< what ended the run early
   std::uint64_t end_ps = 0;
 
   void add(const facts::UnitReport& unit);
   void add_warning(const std::string& warning);
+  /// Call after all add(). A line with one of the texts `noticed` is a notice.
+  void add_console(const std::string& text, const std::vector<std::string>& noticed);
 
   nlohmann::ordered_json json() const;
   static Witness of(const nlohmann::ordered_json& json);
+
+ private:
+  bool has_data_ = false;
 };
 
-/// What a fault came to.
+/// What a fault came to. Of a program whose units have no data, its console counts as one.
 ///
 ///   | Outcome   | The units of work                                                             |
 ///   |-----------|-------------------------------------------------------------------------------|
@@ -45,8 +54,8 @@ const char* to_string(Outcome outcome);
 /// `right`: of the same run without a fault.
 Outcome classify(const Witness& right, const Witness& seen);
 
-/// What tells of a fault: the first warning that a right run has not, or what ended the run; may be
-/// empty.
+/// What tells of a fault: the first warning that a right run has not, what ended the run, or the
+/// first line of the console that differs; may be empty.
 std::string sign(const Witness& right, const Witness& seen);
 
 /// Lower and upper end of the 95 % interval of a share of `hits` in `count` (Wilson 1927), 0 to 1.

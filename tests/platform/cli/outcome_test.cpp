@@ -98,6 +98,38 @@ BOOST_AUTO_TEST_CASE(units_that_do_not_come_are_a_hang) {
   BOOST_TEST((classify(right, seen) == Outcome::hang));
 }
 
+// Units without data, or none: what the program delivers is its text.
+BOOST_AUTO_TEST_CASE(text_of_a_program_whose_units_have_no_data_is_right_or_wrong) {
+  const auto run = [](const std::string& text, int exit_code = 0) {
+    Witness witness;
+    witness.add(platform::facts::UnitReport());
+    witness.add_console(text, {"again"});
+    witness.ended = true;
+    witness.exit_code = exit_code;
+    return witness;
+  };
+  const Witness right = run("sum 12\r\nsum 13\n");
+  BOOST_TEST((classify(right, run("sum 12\nsum 13\n")) == Outcome::masked));
+  BOOST_TEST((classify(right, run("sum 12\nagain\nsum 13\n")) == Outcome::recovered));
+  BOOST_TEST((classify(right, run("sum 12\nsum 99\n")) == Outcome::unnoticed));
+  BOOST_TEST((classify(right, run("sum 12\nsum 99\n", 1)) == Outcome::reported));
+  BOOST_TEST((classify(right, run("sum 99\nagain\nsum 13\n")) == Outcome::recovered));
+  BOOST_TEST((classify(right, run("")) == Outcome::unnoticed));
+  BOOST_TEST((classify(run(""), run("sum 12\n", 1)) == Outcome::reported));
+  BOOST_TEST(sign(right, run("sum 12\nsum 99\n")) == "console: sum 99");
+  BOOST_TEST(sign(right, run("sum 12\n")) == "console: without 'sum 13'");
+}
+
+BOOST_AUTO_TEST_CASE(text_beside_units_with_data_may_differ) {
+  Witness before = echo(1.5, 3);
+  before.add_console("in 12 us\n", {});
+  Witness seen = echo(1.5, 3);
+  seen.add_console("in 13 us\n", {});
+  BOOST_TEST((classify(before, seen) == Outcome::masked));
+  seen.add_console("lost one\n", {"lost"});
+  BOOST_TEST((classify(before, seen) == Outcome::recovered));
+}
+
 // Wilson 1927; the values are those of R's prop.test(correct = FALSE).
 BOOST_AUTO_TEST_CASE(intervals_of_shares) {
   const auto interval = platform::cli::wilson(10, 100);
