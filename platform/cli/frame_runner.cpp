@@ -50,7 +50,7 @@ bool FrameRunner::take(const facts::UnitReport& report, const Outputs& outputs) 
 
 void FrameRunner::write(const facts::UnitReport& report, const Outputs& outputs) {
   const Application& own = application();
-  if (outputs.pictures && own.draw) own.draw(report, *outputs.pictures);
+  if (outputs.pictures && own.draw && own.draw(report, *outputs.pictures)) ++pictures_;
   if (outputs.page && own.page_view) outputs.page->add(report.index, own.page_view(report));
   outputs.result.add(report);
   judge(report);

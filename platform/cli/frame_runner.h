@@ -42,6 +42,8 @@ class FrameRunner {
   /// What ended the run early; null if nothing did. An interrupt is none.
   std::exception_ptr error() const { return error_; }
   std::uint64_t frames() const { return frames_; }
+  /// That were drawn.
+  std::uint64_t pictures() const { return pictures_; }
   /// In the reports of all units.
   std::uint64_t warnings() const { return warnings_; }
   /// Units that lack something, and the first of them.
@@ -69,6 +71,7 @@ class FrameRunner {
   std::unique_ptr<vp::Progress> progress_;
   std::exception_ptr error_;
   std::uint64_t frames_ = 0;
+  std::uint64_t pictures_ = 0;
   std::uint64_t warnings_ = 0;
   Missing unfulfilled_;
   std::map<std::string, Missing> without_;  ///< of the required tallies

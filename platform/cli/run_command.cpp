@@ -350,8 +350,8 @@ std::string written_text(const RunOptions& options, const FrameRunner& runner,
                          bool has_page, bool failed) {
   const bool has_trace = simulation.wrote_trace();
   std::string text = "\nwrote " + (fs::path(options.output) / "result.json").string();
-  if (application().draw && !options.no_pictures && runner.frames() > 0)
-    text += ", " + result::counted(runner.frames(), "picture") + " beside it";
+  if (runner.pictures() > 0)
+    text += ", " + result::counted(runner.pictures(), "picture") + " beside it";
   if (has_page) text += ", report.html to look at";
   if (!failed) {
     for (const std::string& file : other_outputs(options)) {

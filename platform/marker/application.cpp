@@ -31,11 +31,12 @@ const input::InputFrame* input_of(const facts::UnitReport& frame) {
   return dynamic_cast<const input::InputFrame*>(frame.given.get());
 }
 
-void draw(const facts::UnitReport& frame, host::OutputFolder& folder) {
+bool draw(const facts::UnitReport& frame, host::OutputFolder& folder) {
   const input::InputFrame* input = input_of(frame);
-  if (!input) return;
+  if (!input) return false;
   picture::write_png(picture::annotate(input->image, frame),
                      folder.add(picture::picture_name(frame)));
+  return true;
 }
 
 std::string page_view(const facts::UnitReport& frame) {

@@ -141,6 +141,7 @@ BOOST_FIXTURE_TEST_CASE(a_program_as_it_is_has_units_of_work, Imported) {
     const kit::Outcome ran = run_program();
     BOOST_TEST(has(ran.out, "1 packet   ("), ran.out + ran.err);
     BOOST_TEST(has(ran.out, "packets/s mean "), ran.out);
+    BOOST_TEST(!has(ran.out, "picture"), ran.out);  // there is nothing to draw
     BOOST_TEST(result().at("frames").size() == 1u);
   }
   kit::write_file(*this / "mine/design.yaml",

@@ -15,7 +15,7 @@ struct DesignDescriptor {
 };
 
 /// Changes with every change to what designs see, if the version stays.
-inline constexpr std::uint32_t design_abi = 7;
+inline constexpr std::uint32_t design_abi = 8;
 
 }  // namespace platform
 
