@@ -130,6 +130,7 @@ void FixedMapping::map(const std::string& what, const Piece& piece) {
   void* const wanted = reinterpret_cast<void*>(piece.first);
   const std::uint64_t bytes = piece.end - piece.first;
   if (piece.of_program) {
+    map_ahead(behind(piece.first), bytes);
     copy_variables(behind(piece.first), wanted, bytes);
   } else {
     void* const got =
@@ -167,6 +168,7 @@ void FixedMapping::unmap(const Piece& piece) {
   const int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED;
   // Without memory of their own the variables stay where they are.
   if (mmap(at, bytes, PROT_READ | PROT_WRITE, flags, -1, 0) == MAP_FAILED) return;
+  map_ahead(at, bytes);
   copy_variables(at, behind(piece.first), bytes);
 }
 
