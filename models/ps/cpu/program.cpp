@@ -339,7 +339,6 @@ std::unique_ptr<Program> Program::linked(const hal_program& description) {
 
 void Program::keep_loaded() {
   SharedObject::keep();
-  PlatformMapping::keep();
 }
 
 std::unique_ptr<Program> Program::load(const std::string& path) {

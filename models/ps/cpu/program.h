@@ -27,7 +27,6 @@ class Program {
 
   /// From here on programs stay in memory until the process ends, without their destructors: one
   /// that runs many times then loads each once. Each run finds fresh variables as ever (reset()).
-  /// So does the memory around them (PlatformMapping::keep()).
   static void keep_loaded();
 
   virtual ~Program() = default;

@@ -293,10 +293,11 @@ PlatformMapping::~PlatformMapping() {
 }
 
 // What it has of the process that forked it is memory of both.
-void PlatformMapping::keep() {
-  if (keeping_process == getpid()) return;
+void PlatformMapping::keep(bool wanted) {
+  const pid_t process = wanted ? getpid() : 0;
+  if (keeping_process == process) return;
   end_unused();
-  keeping_process = getpid();
+  keeping_process = process;
 }
 
 void PlatformMapping::end_unused() {

@@ -84,8 +84,8 @@ class FixedMapping {
   std::vector<Piece> pieces_;
 };
 
-/// The FixedMapping of a platform. In a process that builds one after the other, the next takes over
-/// the last one's: to map megabytes of variables anew takes as long as to simulate a frame.
+/// The FixedMapping of a platform. In a process that builds one after the other, the next takes
+/// over the last one's: to map megabytes of variables anew takes as long as to simulate a frame.
 class PlatformMapping {
  public:
   /// As FixedMapping.
@@ -96,9 +96,9 @@ class PlatformMapping {
 
   FixedMapping* operator->() const { return mapping_.get(); }
 
-  /// From here on mappings stay when their platform ends, in this process, not in those that it
-  /// forks.
-  static void keep();
+  /// Whether mappings stay from here on when their platform ends, in this process, not in those
+  /// that it forks. At the start they do not.
+  static void keep(bool wanted);
   /// Ends those that no platform has: something else wants their addresses.
   static void end_unused();
 
