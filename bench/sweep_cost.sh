@@ -31,7 +31,7 @@ for round in $(seq "$rounds"); do
   sweep --no-report --output "sweep-$round" | awk '{ print "sweep", $1 + $2 }' >>seconds
   sweep --output "page-$round" | awk '{ print "page", $1 + $2 }' >>seconds
   "$peer" "sweep-$round" "$memory/run" | awk -v points="$points" '{ print "bare", $1 * points / 1000; print "peer", $2 * points / 1000 }' >>seconds
-  computed=$(ls "sweep-$round/points" | wc -l)
+  computed=$(tail -n +2 "sweep-$round/sweep.csv" | wc -l)
   [ "$computed" = "$points" ] || { echo "$computed points computed, not $points"; exit 1; }
 done
 awk -v points="$points" '

@@ -1,8 +1,12 @@
 #include <cli/sweep_command.h>
 
+#include <algorithm>
+#include <deque>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <thread>
 
 #include <chip/run/simulation.h>
 #include <chip/system/designs.h>
@@ -11,6 +15,7 @@
 #include <host/process.h>
 #include <pl/common/known_frames.h>
 #include <ps/cpu/program.h>
+#include <ps/memory/memory.h>
 #include <result/figures.h>
 #include <study/axes.h>
 #include <study/inputs.h>
@@ -73,6 +78,64 @@ Json built(vp::Configuration& configuration, const std::optional<std::string>& p
   return to_json(configuration.parameters(), simulation->input(), simulation->work());
 }
 
+/// What another platform in this process may use again.
+void keep_for_the_next() {
+  ps::Program::keep_loaded();
+  ps::PlatformMapping::keep(true);
+}
+
+/// Builds these one after another in a process of its own, which ends at the first that it cannot
+/// build: a document a line.
+host::Child builder_of(const std::vector<study::Setup>& builds,
+                       const std::vector<std::size_t>& places, const std::string& origin) {
+  return host::Child([&](std::ostream& out, std::ostream&) {
+    keep_for_the_next();
+    for (const std::size_t place : places) {
+      vp::begin_fresh_context();
+      vp::Configuration configuration;
+      for (const auto& [path, value] : builds[place].settings)
+        configuration.set(path, value, origin);
+      out << built(configuration, if_named(builds[place].program))
+                 .dump(-1, ' ', false, Json::error_handler_t::replace)
+          << '\n';
+    }
+    return done;
+  });
+}
+
+/// A study::Platform::elaborate_many.
+std::vector<std::optional<study::Elaborated>> elaborate_many(
+    const std::vector<study::Setup>& builds, const std::string& origin) {
+  constexpr std::size_t worth_a_process = 8;
+  std::vector<std::optional<study::Elaborated>> found(builds.size());
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < builds.size(); ++i) {
+    if (!runs_own_code(builds[i].program, builds[i].settings)) left.push_back(i);
+  }
+  while (!left.empty()) {
+    const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t count = std::clamp(left.size() / worth_a_process, std::size_t{1}, most);
+    std::vector<std::vector<std::size_t>> shares(count);
+    for (std::size_t i = 0; i < left.size(); ++i) shares[i % count].push_back(left[i]);
+    std::deque<host::Child> running;
+    for (const auto& share : shares) running.push_back(builder_of(builds, share, origin));
+    left.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      std::istringstream lines(running[i].wait().out);
+      std::size_t built_here = 0;
+      for (std::string line; built_here < shares[i].size() && std::getline(lines, line);) {
+        const Json document = Json::parse(line, nullptr, false);
+        if (!document.is_object()) break;
+        found[shares[i][built_here++]] = elaborated_from(document);
+      }
+      // One that failed has no answer; those behind it have another try.
+      for (std::size_t next = built_here + 1; next < shares[i].size(); ++next)
+        left.push_back(shares[i][next]);
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 Json made_apart(const std::function<Json(std::ostream& err)>& work) {
@@ -120,6 +183,7 @@ study::Platform sweep_platform() {
       return built(configuration, if_named(build.program));
     }));
   };
+  platform.elaborate_many = elaborate_many;
   platform.program_file = [](const std::string& program, const std::string& design) {
     return program.empty() ? usual_program(design_named(design)) : program_file(program);
   };
@@ -149,7 +213,7 @@ bool runs_own_code(const std::string& program,
 int run_point(const study::Setup& setup, study::RunResult& result, std::ostream& err) {
   vp::begin_fresh_context();
   pl::known_frame_bytes = most_known_bytes;
-  if (!runs_own_code(setup.program, setup.settings)) ps::Program::keep_loaded();
+  if (!runs_own_code(setup.program, setup.settings)) keep_for_the_next();
   MemoryRun found;
   const auto hand_over = [&] {
     result.result = found.result.take();

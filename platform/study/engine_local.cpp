@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <malloc.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -38,6 +39,15 @@ constexpr auto abandon_period = std::chrono::seconds(3);
 
 /// To be woken for every point costs as much as to note it.
 constexpr int listen_period_ms = 20;
+
+/// From here on the process keeps memory that it frees, for what it allocates next: point after
+/// point builds and destroys the same objects, and each page would be mapped anew.
+void keep_freed_memory() {
+  constexpr int most_pieces = 32 << 20, most_free = 256 << 20, step = 1 << 20;  // bytes
+  ::mallopt(M_MMAP_THRESHOLD, most_pieces);
+  ::mallopt(M_TRIM_THRESHOLD, most_free);
+  ::mallopt(M_TOP_PAD, step);
+}
 
 /// A pipe into which nothing is written: its end tells that a process ended.
 class Pipe {
@@ -130,6 +140,7 @@ class Pool {
     }
     running.child.emplace([&](std::ostream&, std::ostream& err) {
       list_.store.leave_lock_to_parent();
+      keep_freed_memory();
       // What PS programs print is of no use here.
       const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
       if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -50,6 +50,9 @@ void find_keys(const Manifest& manifest, std::vector<Point>& points) {
 bool is_program(const std::string& path) {
   return path == "system" || path == "program";
 }
+
+/// Points whose families are built together: of each, all parameters are in memory.
+constexpr std::size_t most_ahead = 256;
 
 /// Not a parameter of the platform, but of the run.
 bool is_special(const std::string& path) {
@@ -274,7 +277,10 @@ class Planner {
   void add_points(Expansion&& expansion) {
     std::vector<Point> points;
     points.reserve(expansion.points.size());
-    for (Assignment& assignment : expansion.points) points.push_back(placed(std::move(assignment)));
+    for (Assignment& assignment : expansion.points) {
+      if (points.size() % most_ahead == 0) build_ahead(expansion.points, points.size());
+      points.push_back(placed(std::move(assignment)));
+    }
     std::vector<Assignment>().swap(expansion.points);  // and its room
     find_keys(manifest_, points);
     std::vector<std::size_t> positions;  // of the expansion's points
@@ -296,21 +302,46 @@ class Planner {
     return point;
   }
 
-  /// All but its key.
-  Point placed(Assignment assignment) {
-    Point point;
-    point.swept = std::move(assignment);
+  /// What decides the family of a point; `rest` gets its other values.
+  Setup build_of(const Assignment& assignment, Assignment* rest) const {
     Setup build{spec_.program, spec_.set};
-    for (const auto& [path, value] : point.swept) {
+    for (const auto& [path, value] : assignment) {
       if (is_program(path)) build.program = value;
       if (is_special(path)) continue;
       if (influential_.count(path) != 0) {
         build.settings[path.text()] = value;
-      } else {
-        point.changes.emplace_back(path, value);
+      } else if (rest) {
+        rest->emplace_back(path, value);
       }
     }
-    const BuiltFamily& family = family_of(build);
+    return build;
+  }
+
+  /// Builds families of the next points together: one by one each has a process of its own.
+  void build_ahead(const std::vector<Assignment>& points, std::size_t first) {
+    ahead_.clear();
+    if (!platform_.elaborate_many || influential_.empty()) return;
+    std::vector<Setup> builds;
+    std::set<FamilyName> seen;
+    for (std::size_t i = first; i < std::min(points.size(), first + most_ahead); ++i) {
+      Setup build = build_of(points[i], nullptr);
+      const FamilyName name{build.program, build.settings};
+      if (families_.count(name) == 0 && seen.insert(name).second)
+        builds.push_back(std::move(build));
+    }
+    if (builds.size() < 2) return;
+    std::vector<std::optional<Elaborated>> built = platform_.elaborate_many(builds, spec_.origin);
+    for (std::size_t i = 0; i < builds.size(); ++i) {
+      if (built[i])
+        ahead_.emplace(FamilyName{builds[i].program, builds[i].settings}, std::move(*built[i]));
+    }
+  }
+
+  /// All but its key.
+  Point placed(Assignment assignment) {
+    Point point;
+    point.swept = std::move(assignment);
+    const BuiltFamily& family = family_of(build_of(point.swept, &point.changes));
     point.family = family.index;
     const std::string* label = find(point.swept, "inputs");
     point.input_set = input_set_of(label != nullptr ? *label : "", family.input);
@@ -327,10 +358,17 @@ class Planner {
     return point;
   }
 
+  /// Program and settings.
+  using FamilyName = std::pair<std::string, std::map<std::string, std::string>>;
   struct BuiltFamily {
     std::size_t index;
     facts::InputNeed input;
   };
+
+  Elaborated elaborated(const Setup& build) {
+    const auto built = ahead_.find({build.program, build.settings});
+    return built != ahead_.end() ? built->second : platform_.elaborate(build, spec_.origin);
+  }
 
   const BuiltFamily& family_of(const Setup& build) {
     const auto known = families_.find({build.program, build.settings});
@@ -338,7 +376,7 @@ class Planner {
     Family family{build.program, {}, {}, {}, {}};
     facts::InputNeed input;
     try {
-      const ParameterTable table(platform_.elaborate(build, spec_.origin));
+      const ParameterTable table(elaborated(build));
       family.configuration = table.values();
       family.defaults = table.defaults();
       // What the design sets holds where the point says nothing.
@@ -384,34 +422,12 @@ class Planner {
   std::vector<AxisGroup> groups_;
   std::vector<vp::Expression> constraints_;
   std::set<std::string> influential_;  ///< parameters from which others follow
-  std::map<std::pair<std::string, std::map<std::string, std::string>>, BuiltFamily> families_;
+  std::map<FamilyName, BuiltFamily> families_;
+  std::map<FamilyName, Elaborated> ahead_;  ///< built, for the next points
   std::map<std::pair<std::string, facts::InputNeed>, std::size_t> input_sets_;
   Manifest manifest_;
   Identities identities_{manifest_};
 };
-
-std::uint64_t Refusals::points() const {
-  return std::accumulate(reasons.begin(), reasons.end(), std::uint64_t{0},
-                         [](std::uint64_t sum, const auto& reason) { return sum + reason.second; });
-}
-
-Refusals try_points(const Manifest& manifest, const Platform& platform, std::size_t most) {
-  Refusals refusals;
-  for (std::size_t i = 0; i < std::min(most, manifest.points.size()); ++i) {
-    const Point& point = manifest.points[i];
-    const Family& family = manifest.families[point.family];
-    std::string problem = family.problem;
-    try {
-      // Without changes it is what its family was built as.
-      if (problem.empty() && !point.changes.empty())
-        platform.elaborate({family.program, manifest.settings(point)}, manifest.name);
-    } catch (const vp::InputError& error) {
-      problem = error.what();
-    }
-    ++(problem.empty() ? refusals.built : refusals.reasons[problem]);
-  }
-  return refusals;
-}
 
 struct Space::Impl {
   Impl(const Spec& asked, const Platform& platform)

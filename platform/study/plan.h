@@ -19,6 +19,11 @@ namespace platform::study {
 struct Platform {
   /// Builds it in a process of its own. Throws vp::InputError that says what the user got wrong.
   std::function<Elaborated(const Setup&, const std::string& origin)> elaborate;
+  /// Builds many as elaborate() would, several in a process. Those without an answer are for
+  /// elaborate(), which says what is wrong with them. Null: there is no such way.
+  std::function<std::vector<std::optional<Elaborated>>(const std::vector<Setup>&,
+                                                       const std::string& origin)>
+      elaborate_many;
   /// The file of a PS program that is named, or that belongs to the design; empty if there are no
   /// files.
   std::function<std::string(const std::string& program, const std::string& design)> program_file;

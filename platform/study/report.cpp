@@ -280,6 +280,13 @@ Json counts_json(const Results& results) {
           {"failed", results.failed()}};
 }
 
+/// The page breaks lines itself, and shows line feeds in texts as what they are.
+std::string in_one_line(const std::string& text) {
+  std::string line(vp::trim(text));
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
+}
+
 }  // namespace
 
 std::string page_block(const Results& results, const std::string& folder, const Json& more) {
@@ -290,7 +297,7 @@ std::string page_block(const Results& results, const std::string& folder, const 
   const std::vector<Column> columns = asked.take();
   Json json{{"name", manifest.name},
             {"title", manifest.title},
-            {"text", results.missing == 0 ? manifest.text : ""},
+            {"text", results.missing == 0 ? in_one_line(manifest.text) : ""},
             {"folder", folder},
             {"swept", manifest.swept},
             {"idle", idle_text(idle_parameters(results))},

@@ -131,6 +131,20 @@ BOOST_FIXTURE_TEST_CASE(a_point_that_fails_is_a_result, Sweeps) {
   BOOST_TEST(contains(run({"sweep", "s.yaml", "--retry-failed"}).out, "1 computed now"));
 }
 
+// Platforms are built together to know what the points are: one that cannot be built stops none.
+BOOST_FIXTURE_TEST_CASE(points_that_cannot_be_built_leave_the_others_as_they_are, Sweeps) {
+  const std::string labels = "  pl.blob_detection.label_count: [16, 32, 64, 128]\n";
+  write("some.yaml", "parameters:\n  ps.ddr.size: [64 MiB, 511 MiB]\n" + labels);
+  write("all.yaml", "parameters:\n  ps.ddr.size: [511 MiB]\n" + labels);
+  const kit::Outcome some = run({"sweep", "some.yaml", "--output", "some", "--keep-results"});
+  BOOST_TEST(some.exit_code == 4);
+  BOOST_TEST(contains(some.err, "4 points of 8 failed"), some.err);
+  BOOST_TEST(contains(some.out, "ps.ddr.dma_base is 0x10000000, but the memory ends at"), some.out);
+  run({"sweep", "all.yaml", "--output", "all", "--keep-results"});
+  BOOST_TEST(kept("all").size() == 4u);
+  for (const auto& [key, result] : kept("all")) BOOST_TEST((kept("some").at(key) == result));
+}
+
 // The frame that went wrong says why, also if a good one follows it.
 BOOST_FIXTURE_TEST_CASE(a_failed_point_says_what_the_software_said, Sweeps) {
   std::string noise = "P5\n640 480\n255\n";

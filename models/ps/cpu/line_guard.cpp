@@ -10,6 +10,7 @@
 #include <unistd.h>
 #include <vp/kernel.h>
 
+#include <ps/cpu/load_emulation.h>
 #include <ps/cpu/program_watch.h>
 
 namespace ps {
@@ -259,7 +260,7 @@ bool LineGuard::fault(std::uintptr_t address, void* context) {
   if (of.empty() || !by_program || !may_step(of)) {
     open(number);
   } else {
-    step(number, of.guarded.empty(), context);
+    step(address, of.guarded.empty(), context);
   }
   return true;
 }
@@ -280,14 +281,19 @@ bool LineGuard::may_step(Page& page) {
   return true;
 }
 
-/// Opens the page for one instruction.
-void LineGuard::step(std::size_t number, bool for_watched, void* context) {
+/// Executes one instruction, with the page open.
+void LineGuard::step(std::uintptr_t address, bool for_watched, void* context) {
+  const std::size_t number = (address - first_) / page;
   const bool goes_on = stepping_count_ != 0;
   const bool counts = !goes_on && !for_watched;
   if (!can_step || stepping_count_ == stepping_.size() || (counts && steps_left_ == 0)) {
     return leave_alone_all_closed_with(number);
   }
   if (counts) --steps_left_;
+  const std::size_t in_page = page - address % page;
+  if (second_view_ && !goes_on &&
+      emulate_load(context, address, second_view_ + (address - first_), in_page))
+    return;
   stepping_[stepping_count_++] = number;
   allow(number, number + 1, true);
   trap_is_set_ = true;

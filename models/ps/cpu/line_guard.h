@@ -15,9 +15,10 @@ namespace ps {
 ///
 /// The pages of guarded lines lose their access rights, so accesses fault: a read of a guarded line
 /// is reported, a write removes the guard of its line. For an access to the rest of such a page,
-/// the page is opened for that one instruction (the processor's trap flag, x86-64). This takes some
-/// 20 us, so it is done at most `steps` times in a run. A program that needs more releases buffers
-/// in parts: ranges guarded together with such a page are no longer guarded from then on.
+/// the page is opened for that one instruction (the processor's trap flag, x86-64), or a plain load
+/// is executed in its place (read_from()). This takes some 20 or 5 us, so it is done at most
+/// `steps` times in a run. A program that needs more releases buffers in parts: ranges guarded
+/// together with such a page are no longer guarded from then on.
 ///
 /// Lines may be watched instead: their reads are offered before the guard's, again and again as
 /// long as the listener likes. They have fewer steps, a quarter in a run and 8 for each page, after
@@ -42,6 +43,9 @@ class LineGuard {
   LineGuard(const LineGuard&) = delete;
   LineGuard& operator=(const LineGuard&) = delete;
 
+  /// Where the memory's bytes may be read that the program must not see: from here on loads beside
+  /// guarded lines need no step.
+  void read_from(const unsigned char* second_view) { second_view_ = second_view; }
   /// All lines of [address, address + bytes), which begins in the memory, once the program runs
   /// again.
   void guard(std::uintptr_t address, std::size_t bytes);
@@ -99,7 +103,7 @@ class LineGuard {
   void offer(Page& page, unsigned number, std::uintptr_t address, const void* context);
   bool may_step(Page& page);
   bool fault(std::uintptr_t address, void* context);
-  void step(std::size_t number, bool for_watched, void* context);
+  void step(std::uintptr_t address, bool for_watched, void* context);
   void end_step(void* context);
   void close();
   void open(std::size_t number);
@@ -109,6 +113,7 @@ class LineGuard {
 
   std::uintptr_t first_;
   std::uintptr_t end_;
+  const unsigned char* second_view_ = nullptr;
   Listener listener_;
   Watcher watcher_;
   bool stopped_ = false;

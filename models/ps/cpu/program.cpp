@@ -4,6 +4,7 @@
 #include <ps/cpu/program.h>
 #include <ps/cpu/program_image.h>
 #include <ps/cpu/program_watch.h>
+#include <ps/memory/memory.h>
 #include <vp/error.h>
 #include <vp/fault_trap.h>
 #include <vp/foreign_object.h>
@@ -223,6 +224,7 @@ class SharedObject {
   static std::shared_ptr<SharedObject> open(const std::string& path) {
     static std::map<std::string, std::weak_ptr<SharedObject>> loaded;
     if (auto object = loaded[path].lock()) return object;
+    PlatformMapping::end_unused();
     make_room(ProgramImage::wanted_by(path));
     auto object = std::make_shared<SharedObject>(path);
     loaded[path] = object;

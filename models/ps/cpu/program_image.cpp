@@ -175,15 +175,36 @@ void ProgramImage::settle(const Span& wanted) {
   resident_.emplace(std::filesystem::path(path_).stem().string(), parts);
 }
 
+// Most of the variables of a program are 0, in pages that need no copy.
 void ProgramImage::keep(std::uintptr_t first, std::uintptr_t end) {
-  Saved saved{reinterpret_cast<unsigned char*>(first), std::vector<unsigned char>(end - first)};
-  copy_variables(saved.bytes.data(), saved.address, saved.bytes.size());
-  saved_.push_back(std::move(saved));
+  for (std::uintptr_t at = first; at < end;) {
+    const std::uintptr_t next = std::min(end, down(at) + host_page);
+    std::vector<unsigned char> bytes(next - at);
+    copy_variables(bytes.data(), reinterpret_cast<const void*>(at), bytes.size());
+    const bool is_clear =
+        std::all_of(bytes.begin(), bytes.end(), [](unsigned char byte) { return byte == 0; });
+    if (is_clear) bytes.clear();
+    Saved* const last = saved_.empty() ? nullptr : &saved_.back();
+    if (last && last->address + last->size == reinterpret_cast<unsigned char*>(at) &&
+        last->bytes.empty() == is_clear) {
+      last->size += next - at;
+      last->bytes.insert(last->bytes.end(), bytes.begin(), bytes.end());
+    } else {
+      saved_.push_back({reinterpret_cast<unsigned char*>(at), next - at, std::move(bytes)});
+    }
+    at = next;
+  }
 }
 
 void ProgramImage::restore() const {
-  for (const Saved& saved : saved_)
-    copy_variables(saved.address, saved.bytes.data(), saved.bytes.size());
+  for (const Saved& saved : saved_) {
+    map_ahead(saved.address, saved.size);
+    if (saved.bytes.empty()) {
+      clear_variables(saved.address, saved.size);
+    } else {
+      copy_variables(saved.address, saved.bytes.data(), saved.size);
+    }
+  }
 }
 
 void ProgramImage::end_heap_at(std::uintptr_t end) const {

@@ -48,7 +48,8 @@ class ProgramImage {
  private:
   struct Saved {
     unsigned char* address;
-    std::vector<unsigned char> bytes;
+    std::size_t size;
+    std::vector<unsigned char> bytes;  ///< empty: all are 0
   };
   void reserve_heap(const Span& wanted);
   void take_segments();

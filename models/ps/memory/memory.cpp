@@ -130,6 +130,7 @@ void FixedMapping::map(const std::string& what, const Piece& piece) {
   void* const wanted = reinterpret_cast<void*>(piece.first);
   const std::uint64_t bytes = piece.end - piece.first;
   if (piece.of_program) {
+    map_ahead(behind(piece.first), bytes);
     copy_variables(behind(piece.first), wanted, bytes);
   } else {
     void* const got =
@@ -167,6 +168,7 @@ void FixedMapping::unmap(const Piece& piece) {
   const int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED;
   // Without memory of their own the variables stay where they are.
   if (mmap(at, bytes, PROT_READ | PROT_WRITE, flags, -1, 0) == MAP_FAILED) return;
+  map_ahead(at, bytes);
   copy_variables(at, behind(piece.first), bytes);
 }
 
@@ -234,6 +236,74 @@ void FixedMapping::leave_to_parent() {
   close(std::exchange(descriptor_, file));
 }
 
+bool FixedMapping::renew(const std::string& what) {
+  if (descriptor_ < 0 || pieces_in(what) != pieces_) return false;
+  for (const Piece& piece : pieces_) {
+    const std::uint64_t bytes = piece.end - piece.first;
+    if (!piece.of_program && madvise(behind(piece.first), bytes, MADV_REMOVE) != 0) return false;
+    if (mprotect(reinterpret_cast<void*>(piece.first), bytes, PROT_READ | PROT_WRITE) != 0)
+      return false;
+  }
+  return true;
+}
+
+namespace {
+
+/// A mapping without a platform.
+struct Unused {
+  std::uint64_t first;
+  std::unique_ptr<FixedMapping> mapping;
+};
+
+/// Never destroyed: the end of the process frees them.
+std::vector<Unused>& unused() {
+  static auto* const mappings = new std::vector<Unused>;
+  return *mappings;
+}
+
+pid_t keeping_process = 0;
+
+std::unique_ptr<FixedMapping> take_unused(const std::string& what, std::uint64_t first,
+                                          std::uint64_t size) {
+  std::vector<Unused>& all = unused();
+  for (auto at = all.begin(); at != all.end();) {
+    if (at->first >= first + size || at->first + at->mapping->size() <= first) {
+      ++at;
+      continue;
+    }
+    std::unique_ptr<FixedMapping> found = std::move(at->mapping);
+    const bool fits = at->first == first && found->size() == size && keeping_process == getpid();
+    at = all.erase(at);
+    if (fits && found->renew(what)) return found;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+PlatformMapping::PlatformMapping(const std::string& what, std::uint64_t first, std::uint64_t size)
+    : mapping_(take_unused(what, first, size)) {
+  if (!mapping_) mapping_ = std::make_unique<FixedMapping>(what, first, size);
+}
+
+PlatformMapping::~PlatformMapping() {
+  if (keeping_process != getpid()) return;
+  const auto first = reinterpret_cast<std::uintptr_t>(mapping_->data());
+  unused().push_back({first, std::move(mapping_)});
+}
+
+// What it has of the process that forked it is memory of both.
+void PlatformMapping::keep(bool wanted) {
+  const pid_t process = wanted ? getpid() : 0;
+  if (keeping_process == process) return;
+  end_unused();
+  keeping_process = process;
+}
+
+void PlatformMapping::end_unused() {
+  unused().clear();
+}
+
 std::optional<std::uint32_t> DmaAllocator::allocate(std::size_t size, std::size_t alignment) {
   if (alignment == 0 || (alignment & (alignment - 1)) != 0) return std::nullopt;
   const std::uint64_t range = end_ - first_;
@@ -264,15 +334,15 @@ Ddr::Ddr(sc_core::sc_module_name name)
                vp::Source::decision, "first address of the DMA buffers"),
       memory_(std::string(this->name()) + " (DDR)", base, checked_size(this->name(), size)),
       dma_memory_(checked_dma_base(this->name(), dma_base, base + size), base + size) {
-  show(memory_.second_view(), base, size);
+  show(memory_->second_view(), base, size);
 }
 
 unsigned char* Ddr::at(std::uint32_t address, std::uint64_t bytes) const {
-  return memory_.data() + (behind(address, bytes) - memory_.second_view());
+  return memory_->data() + (behind(address, bytes) - memory_->second_view());
 }
 
 unsigned char* Ddr::behind(std::uint32_t address, std::uint64_t bytes) const {
-  if (contains(address, bytes)) return memory_.second_view() + (address - base);
+  if (contains(address, bytes)) return memory_->second_view() + (address - base);
   throw vp::ProtocolError(std::to_string(bytes) + " bytes at " + vp::hex(address) +
                           " are not in the DDR (" + vp::hex(base) + " to " + vp::hex(end() - 1) +
                           ")");
@@ -289,7 +359,7 @@ void Ddr::account(tlm::tlm_command command, std::uint64_t bytes) {
 }
 
 void Ddr::clear() {
-  memory_.clear();
+  memory_->clear();
   dma_memory_.reset();
 }
 
@@ -300,7 +370,7 @@ void Ddr::answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
 StackMemory::StackMemory(sc_core::sc_module_name name, std::uint64_t bytes)
     : MemoryTarget(name),
       memory_(std::string(this->name()) + " (stacks of programs)", ddr_end - bytes, bytes) {
-  show(memory_.second_view(), ddr_end - bytes, bytes);
+  show(memory_->second_view(), ddr_end - bytes, bytes);
 }
 
 Ocm::Ocm(sc_core::sc_module_name name, const vp::Clock& cpu_clock)

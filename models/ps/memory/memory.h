@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -54,12 +55,20 @@ class FixedMapping {
   /// In a process that was forked: a copy of its own in place of the memory that both have.
   /// Addresses and access rights stay. Throws vp::HostError if the host has no room.
   void leave_to_parent();
+  /// Makes it what a new one for `what` would be: zeroed and accessible, but for the variables of
+  /// programs, which keep what is in them. False, without any change: other programs are loaded
+  /// now, or there is no file.
+  bool renew(const std::string& what);
 
  private:
   /// Pages of data() that are mapped.
   struct Piece {
     std::uint64_t first, end;
     bool of_program;  ///< variables of a program
+
+    bool operator==(const Piece& other) const {
+      return first == other.first && end == other.end && of_program == other.of_program;
+    }
   };
   std::vector<Piece> pieces_in(const std::string& what) const;
   void map(const std::string& what, const Piece& piece);
@@ -73,6 +82,28 @@ class FixedMapping {
   std::uint64_t size_;
   int descriptor_;
   std::vector<Piece> pieces_;
+};
+
+/// The FixedMapping of a platform. In a process that builds one after the other, the next takes
+/// over the last one's: to map megabytes of variables anew takes as long as to simulate a frame.
+class PlatformMapping {
+ public:
+  /// As FixedMapping.
+  PlatformMapping(const std::string& what, std::uint64_t first, std::uint64_t size);
+  ~PlatformMapping();
+  PlatformMapping(const PlatformMapping&) = delete;
+  PlatformMapping& operator=(const PlatformMapping&) = delete;
+
+  FixedMapping* operator->() const { return mapping_.get(); }
+
+  /// Whether mappings stay from here on when their platform ends, in this process, not in those
+  /// that it forks. At the start they do not.
+  static void keep(bool wanted);
+  /// Ends those that no platform has: something else wants their addresses.
+  static void end_unused();
+
+ private:
+  std::unique_ptr<FixedMapping> mapping_;
 };
 
 /// `count` zeroed values, of which those take memory that were touched, page by page.
@@ -168,7 +199,7 @@ class Ddr : public vp::MemoryTarget {
   /// The same byte for accesses not by the program: devices and the test bench.
   unsigned char* behind(std::uint32_t address, std::uint64_t bytes = 1) const;
   /// A file with all of it, for another process to map; -1: the host allows none of that size.
-  int descriptor() const { return memory_.descriptor(); }
+  int descriptor() const { return memory_->descriptor(); }
   /// Counts one transaction that went through direct access.
   void account(tlm::tlm_command command, std::uint64_t bytes);
 
@@ -177,12 +208,12 @@ class Ddr : public vp::MemoryTarget {
   /// All of it is 0 and free again.
   void clear();
   /// FixedMapping::leave_to_parent().
-  void leave_to_parent() { memory_.leave_to_parent(); }
+  void leave_to_parent() { memory_->leave_to_parent(); }
 
  private:
   void answered(const tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) override;
 
-  FixedMapping memory_;
+  PlatformMapping memory_;
   DmaAllocator dma_memory_;
 };
 
@@ -197,12 +228,12 @@ class StackMemory : public vp::MemoryTarget {
   static constexpr std::uint64_t ddr_end = 0x4000'0000;  // UG585 table 4-1
   using MemoryTarget::end;
   /// FixedMapping::leave_to_parent().
-  void leave_to_parent() { memory_.leave_to_parent(); }
+  void leave_to_parent() { memory_->leave_to_parent(); }
 
  private:
   void answered(const tlm::tlm_generic_payload&, sc_core::sc_time&) override {}
 
-  FixedMapping memory_;
+  PlatformMapping memory_;
 };
 
 /// The on-chip memory, 256 KiB at the top of the address space, as boot code leaves it (UG585

@@ -93,7 +93,7 @@ ProcessingSystem::ProcessingSystem(sc_core::sc_module_name name, vp::ClockSchedu
       cache_guard_steps(
           "cache_guard_steps", 200, vp::Unit::none, {0, 1'000'000'000}, vp::Source::decision,
           "accesses beside cache lines that a DMA wrote and the program did not invalidate, which "
-          "are looked at one by one (some 20 us of the host's time each); 0: no read is looked at "
+          "are looked at one by one (5 to 20 us of the host's time each); 0: no read is looked at "
           "(no result depends on it)"),
       ethernet("ethernet", true, vp::Source::published,
                "whether the I/O PLL feeds Ethernet, which must have 125 MHz: binds the frequencies "

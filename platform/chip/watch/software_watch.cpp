@@ -20,6 +20,9 @@ namespace {
 
 constexpr std::uint64_t line = ps::DmaAllocator::cache_line;
 
+/// Larger than buffers: a program may invalidate all of the memory.
+constexpr std::uint64_t most_ahead = std::uint64_t{4} << 20;
+
 }  // namespace
 
 CacheContract::Watch::Watch(CacheContract& contract, vp::MmLink& link)
@@ -63,6 +66,7 @@ CacheContract::CacheContract(Zynq& zynq)
       guard_(first_, end_, zynq.ps.cache_guard_steps,
              [this](std::uintptr_t address) { program_reads(address); }),
       early_reads_(zynq, guard_, first_, end_) {
+  guard_.read_from(written_);
   for (xilinx::MemoryPort* port : vp::all_below<xilinx::MemoryPort>(zynq.pl())) {
     watches_.emplace_back(*this, port->link);
   }
@@ -220,6 +224,10 @@ std::optional<std::uint64_t> CacheContract::first_dirty(std::uint64_t address, s
   const std::uint64_t end = std::min(address + bytes, end_);
   const unsigned char* const seen = memory_.data() - first_;
   const unsigned char* const wrote = written_ - first_;
+  if (end - address <= most_ahead) {
+    ps::map_ahead(seen + address, end - address);
+    ps::map_ahead(wrote + address, end - address);
+  }
   const auto next_after = [end](std::uint64_t at, std::uint64_t size) {
     return std::min(end, (at / size + 1) * size);
   };

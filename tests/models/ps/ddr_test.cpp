@@ -157,6 +157,38 @@ BOOST_AUTO_TEST_CASE(many_one_after_the_other_are_fresh) {
   }
 }
 
+// As in a sweep: the host's pages stay, but for what was written, and for access rights.
+BOOST_AUTO_TEST_CASE(what_a_platform_hands_on_to_the_next_is_as_new) {
+  struct Keeping {
+    Keeping() { ps::PlatformMapping::keep(true); }
+    ~Keeping() { ps::PlatformMapping::keep(false); }
+  };
+  constexpr std::uint64_t first = 0x2000'0000, size = 0x10'0000, page = 4096;
+  std::optional<Keeping> keeping;
+  for (const bool is_kept : {false, true}) {
+    if (is_kept) keeping.emplace();
+    std::optional<ps::PlatformMapping> mapping(std::in_place, "the test", first, size);
+    const unsigned char* const before = (*mapping)->second_view();
+    (*mapping)->data()[page + 5] = 42;
+    (*mapping)->second_view()[7] = 1;
+    mprotect((*mapping)->data() + page, page, PROT_NONE);
+    mapping.reset();
+    BOOST_TEST(ps::occupant(first, first + size).empty() != is_kept);
+    mapping.emplace("the test", first, size);
+    if (is_kept) BOOST_TEST((*mapping)->second_view() == before);
+    BOOST_TEST((*mapping)->data()[page + 5] == 0);
+    BOOST_TEST((*mapping)->data()[7] == 0);
+    (*mapping)->data()[page + 5] = 43;
+    BOOST_TEST((*mapping)->second_view()[page + 5] == 43);
+  }
+  // One of another size, or at addresses that overlap, finds room.
+  ps::PlatformMapping("the test", first, size);
+  BOOST_TEST(ps::PlatformMapping("the test", first, 2 * size)->size() == 2 * size);
+  BOOST_TEST(ps::PlatformMapping("the test", first + size, size)->data()[0] == 0);
+  ps::PlatformMapping::end_unused();
+  BOOST_TEST(ps::occupant(first, first + 2 * size).empty());
+}
+
 BOOST_AUTO_TEST_CASE(a_gibibyte) {
   kit::Simulation simulation;
   vp::Configuration configuration;

@@ -107,6 +107,12 @@ BOOST_AUTO_TEST_CASE(where_points_are_missing_the_text_of_the_study_is_left_out)
   BOOST_TEST(Json::parse(page_block(results, "x"))["text"] == "");
 }
 
+BOOST_AUTO_TEST_CASE(the_page_has_the_text_of_the_study_without_line_feeds) {
+  Results results = example();
+  results.manifest.text = "Fewer is\nbetter.\n";
+  BOOST_TEST(Json::parse(page_block(results, "x"))["text"] == "Fewer is better.");
+}
+
 BOOST_AUTO_TEST_CASE(more_points_than_fit_are_counted) {
   const std::string text = sweep_text(example(), 1);
   BOOST_TEST(contains(text, "… and 1 point more: see sweep.csv\n\nNot feasible:\n\n… and 2"), text);
