@@ -146,6 +146,7 @@ install(FILES
   cmake/MarkervpAssembly.h
   cmake/MarkervpHeap.cpp
   cmake/MarkervpRtl.cpp.in
+  cmake/MarkervpRtlRefused.cmake
   cmake/MarkervpVerilated.cmake
   cmake/MarkervpVhdl.cmake
   cmake/MarkervpVendor.c

@@ -1,7 +1,8 @@
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVerilated.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVhdl.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/MarkervpRtlRefused.cmake")
 
-# markervp_add_rtl(NAME [IP ip] TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE] [FIGURES]
+# markervp_add_rtl(NAME [IP ip] TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE] [FIGURES] [STUB_IF_REFUSED]
 #   [INCLUDE_DIRS dir…] [DEFINES NAME[=VALUE]…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS o…] [GHDL_OPTIONS o…]
 #   [INTERFACES "port: kind…"…] [REGISTERS file])
 # RTL as a shared object. With IP in place of an IP, for `markervp run --set pl.fidelity.<ip>=FILE`; without IP a part of a design
@@ -9,13 +10,15 @@ include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVhdl.cmake")
 # GHDL turns VHDL into Verilog for it, `TOP` then is an entity. REGISTERS describes its registers; without it, a component.xml or
 # x<top>_hw.h where the vendor's tools put it beside the sources. The object knows its ports and parameters; markervp compares them with those of the
 # IP when it loads it. With FIGURES its synthesis is part of the build: <name>.figures.json beside the object. Its assertions run, and end the run, but with NO_ASSERTIONS. Needs neither markervp's headers nor its compiler, so it serves every markervp of the same interface.
+# RTL that cannot be read stops CMake; with STUB_IF_REFUSED CMake warns, and leaves the reason in <name>.refused, where the object would be: a
+# design whose part names that object gets a stub in its place.
 function(markervp_add_rtl NAME)
-  cmake_parse_arguments(RTL "NO_ASSERTIONS;COVERAGE;FIGURES" "IP;TOP;FILELIST;REGISTERS"
+  cmake_parse_arguments(RTL "NO_ASSERTIONS;COVERAGE;FIGURES;STUB_IF_REFUSED" "IP;TOP;FILELIST;REGISTERS"
     "SOURCES;PARAMETERS;INCLUDE_DIRS;DEFINES;WAIVERS;VERILATOR_OPTIONS;GHDL_OPTIONS;INTERFACES" ${ARGN})
   if(NOT RTL_TOP OR NOT (RTL_SOURCES OR RTL_FILELIST) OR RTL_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "markervp_add_rtl(${NAME} [IP ip] TOP module SOURCES file… [PARAMETERS NAME=VALUE…] [INTERFACES \"port: kind\"…] "
       "[INCLUDE_DIRS dir…] [DEFINES NAME=VALUE…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS option…] [GHDL_OPTIONS option…] "
-      "[REGISTERS file] [NO_ASSERTIONS] [COVERAGE] [FIGURES]): got '${ARGN}'")
+      "[REGISTERS file] [NO_ASSERTIONS] [COVERAGE] [FIGURES] [STUB_IF_REFUSED]): got '${ARGN}'")
   endif()
   find_package(verilator 5 HINTS "$ENV{VERILATOR_ROOT}" /usr/share/verilator)
   if(NOT verilator_FOUND)
@@ -23,15 +26,18 @@ function(markervp_add_rtl NAME)
   endif()
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/${NAME}.rtl")
   file(MAKE_DIRECTORY "${folder}")
+  file(REMOVE "${CMAKE_CURRENT_BINARY_DIR}/${NAME}.refused")
   set(sources "")
   set(vhdl "")
   foreach(source IN LISTS RTL_SOURCES)
     get_filename_component(source "${source}" ABSOLUTE)
     if(NOT EXISTS "${source}")
-      message(FATAL_ERROR "markervp_add_rtl(${NAME}): there is no file '${source}'")
+      markervp_rtl_refuse(${NAME} "" "there is no file '${source}'")
+      return()
     endif()
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${source}")
     markervp_rtl_refuse_encrypted(${NAME} "${source}")
+    markervp_rtl_return_if_refused(${NAME})
     if(source MATCHES "\\.vhdl?$")
       list(APPEND vhdl "${source}")
     else()
@@ -41,7 +47,8 @@ function(markervp_add_rtl NAME)
   list(TRANSFORM RTL_PARAMETERS PREPEND -G OUTPUT_VARIABLE parameters)
   set(generics "")
   if(vhdl)
-    markervp_rtl_from_vhdl(${NAME} ${RTL_TOP} "${folder}/${RTL_TOP}.v" "${RTL_PARAMETERS}" "${RTL_GHDL_OPTIONS}" ${vhdl})
+    markervp_rtl_translate(${NAME} "${folder}/${RTL_TOP}.v" ${vhdl})
+    markervp_rtl_return_if_refused(${NAME})
     list(APPEND sources "${folder}/${RTL_TOP}.v")
     set(parameters "")
     markervp_rtl_generics(generics ${RTL_PARAMETERS})
@@ -49,8 +56,10 @@ function(markervp_add_rtl NAME)
   markervp_rtl_options(options)
 
   markervp_rtl_run(${NAME} "${VERILATOR_BIN}" --lint-only --top-module ${RTL_TOP} ${options} ${parameters} ${sources})
+  markervp_rtl_return_if_refused(${NAME})
   markervp_rtl_run(${NAME} "${VERILATOR_BIN}" --xml-only --xml-output "${folder}/top.xml" --Mdir "${folder}"
     --top-module ${RTL_TOP} ${options} ${parameters} ${sources})
+  markervp_rtl_return_if_refused(${NAME})
   set(check check)
   set(assert --assert)
   if(RTL_NO_ASSERTIONS)
@@ -70,6 +79,8 @@ function(markervp_add_rtl NAME)
   verilate(${NAME} ${coverage} PREFIX Vrtl TOP_MODULE ${RTL_TOP} DIRECTORY "${folder}/verilated" SOURCES ${sources}
     VERILATOR_ARGS -O3 --x-assign fast --x-initial unique ${assert} ${options} ${parameters})
   markervp_rtl_notes("${RTL_INTERFACES}" "${files}" notes)
+  markervp_rtl_glue(${NAME} "${folder}" "${generics}")
+  markervp_rtl_return_if_refused(${NAME})
   markervp_rtl_registers(${NAME})
   if(RTL_FIGURES)
     set(synthesised ${vhdl})
@@ -84,7 +95,6 @@ function(markervp_add_rtl NAME)
     endif()
     markervp_rtl_figures(${NAME} "${folder}" "${synthesised}")
   endif()
-  markervp_rtl_glue(${NAME} "${folder}" "${generics}")
   # The glue has these functions (MarkervpRtl.cpp.in).
   target_compile_definitions(${NAME} PRIVATE VL_USER_FINISH VL_USER_STOP VL_USER_FATAL VL_USER_WARN VL_PRINTF=markervp_rtl_print)
   target_compile_options(${NAME} PRIVATE -include pl/common/rtl_interface.h)
@@ -226,7 +236,7 @@ endif()
 function(markervp_rtl_refuse_encrypted NAME SOURCE)
   file(STRINGS "${SOURCE}" found REGEX "^[ \t]*`(pragma[ \t]+)?protect[ \t]+begin_protected" LIMIT_COUNT 1)
   if(found)
-    message(FATAL_ERROR "markervp_add_rtl(${NAME}): '${SOURCE}' is encrypted, so only the tools of its vendor read it: "
+    markervp_rtl_refuse(${NAME} "" "'${SOURCE}' is encrypted, so only the tools of its vendor read it: "
       "take a model in its place, of the shelf or your own (docs/designs.md)")
   endif()
 endfunction()
@@ -246,8 +256,7 @@ function(markervp_rtl_run NAME)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result ERROR_VARIABLE errors OUTPUT_VARIABLE errors)
   if(NOT result EQUAL 0)
     markervp_rtl_advice("${errors}" advice)
-    string(CONCAT advice ${advice})
-    message(FATAL_ERROR "${errors}\nmarkervp_add_rtl(${NAME}): ${advice}")
+    markervp_rtl_refuse(${NAME} "${errors}\n" ${advice})
   endif()
 endfunction()
 
@@ -400,8 +409,8 @@ function(markervp_rtl_glue NAME FOLDER parameters)
         if(direction STREQUAL "inout")
           set(advice "wires here have one direction: give '${name}_i', '${name}_o' and '${name}_t' in its place")
         endif()
-        message(FATAL_ERROR "${port_place}: port '${name}' of '${top}' is no input or output of 1 to ${most} bits\n"
-          "markervp_add_rtl(${NAME}): ${advice}")
+        markervp_rtl_refuse(${NAME} "${port_place}: port '${name}' of '${top}' is no input or output of 1 to ${most} bits\n" "${advice}")
+        return()
       endif()
       set(output 0)
       if(direction STREQUAL "output")

@@ -140,7 +140,7 @@ std::string rtl_targets(const ImportedDesign& design) {
         (part.rtl.interfaces.empty()
              ? ""
              : "\n  INTERFACES \"" + vp::join(part.rtl.interfaces, "\" \"") + "\"") +
-        "\n  FIGURES)\nset_target_properties(" + part.target +
+        "\n  FIGURES STUB_IF_REFUSED)\nset_target_properties(" + part.target +
         " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\n\n";
   }
   return text;

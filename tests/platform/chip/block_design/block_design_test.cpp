@@ -12,6 +12,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -254,6 +255,23 @@ BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_rests_and_leaves_the_verdict_op
   BOOST_TEST(stubs_behind("axi_dma_0.axi_dma_tstvec") == "axi_dma_0.axi_dma_tstvec");
   BOOST_TEST(stubs_behind("axi_dma_0.mm2s_prmry_reset_out_n") == "", "nothing is in reset");
   BOOST_TEST(stubs_behind("external.buttons") == "");
+}
+
+BOOST_AUTO_TEST_CASE(rtl_that_the_build_refused_is_a_stub_with_its_reason) {
+  const kit::TemporaryFolder folder;
+  const std::string file = folder / "design.yaml";
+  vp::write_file(file, replaced(small_design(), "ip: me:user:own:1.0",
+                                "ip: me:user:own:1.0\n    rtl: build/own_0.so"));
+  const auto own = [&] { return *block_design::read_design_file(file).part("own_0"); };
+  BOOST_TEST(!own().is_stub(), "not built yet: it must be built");
+  std::filesystem::create_directory(folder / "build");
+  vp::write_file(folder / "build/own_0.refused", "no module 'BUFG'\nmore\n");
+  BOOST_TEST(own().is_stub());
+  BOOST_TEST(own().refused == "no module 'BUFG'");
+  const block_design::DesignFile design = block_design::read_design_file(file);
+  BOOST_TEST(design.part("axi_gpio_0")->refused == "");
+  vp::write_file(folder / "build/own_0.so", "object");
+  BOOST_TEST(!own().is_stub(), "what was built since is not refused");
 }
 
 // What is clocked goes before its clock then, too: the sanitizers of CI see to it.

@@ -236,7 +236,7 @@ BOOST_FIXTURE_TEST_CASE(an_imported_design_names_it, Folders) {
   const std::string cmake = block_design::import_cmake("small", design, {}, false);
   BOOST_TEST(cmake.find("COMPONENTS programs rtl)") != std::string::npos);
   BOOST_TEST(cmake.find("markervp_add_rtl(own_0 TOP own SOURCES\n  \"") != std::string::npos);
-  BOOST_TEST(cmake.find("PARAMETERS WIDTH=8\n  FIGURES)") != std::string::npos);
+  BOOST_TEST(cmake.find("PARAMETERS WIDTH=8\n  FIGURES STUB_IF_REFUSED)") != std::string::npos);
   BOOST_TEST(block_design::import_report(handoff, design, "").find("| me:user:own:1.0 | RTL |") !=
              std::string::npos);
 }
