@@ -227,6 +227,20 @@ BOOST_AUTO_TEST_CASE(stubs_and_memories_have_the_names_of_their_drivers) {
     BOOST_TEST(header.find("#define " + std::string(line)) != std::string::npos, line);
 }
 
+BOOST_AUTO_TEST_CASE(an_interrupt_of_a_stub_with_two_interfaces_has_its_name) {
+  std::string text = replaced(small_design(), "parts:\n",
+                              "parts:\n  sums:\n    ip: me:user:sums:1.0\n"
+                              "    buses: {S00_AXI: periph.M03_AXI, S_AXI_INTR: periph.M04_AXI}\n");
+  text = replaced(text, "  ps.M_AXI_GP0:\n",
+                  "  ps.M_AXI_GP0:\n    sums.S00_AXI: [0x43000000, 64 KiB]\n"
+                  "    sums.S_AXI_INTR: [0x43010000, 64 KiB]\n");
+  text = replaced(text, "      IRQ_F2P: lines.dout",
+                  "      Core0_nIRQ: sums.irq\n      IRQ_F2P: lines.dout");
+  const std::string header = hardware_map(*Built(text).zynq).xparameters;
+  BOOST_TEST(header.find("#define XPAR_FABRIC_SUMS_IRQ_INTR 31\n") != std::string::npos);
+  BOOST_TEST(header.find("#define XPAR_SUMS_S00_AXI_BASEADDR 0x43000000U\n") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(stubs_may_drive_each_other) {
   const std::string ring =
       "parts:\n  life:\n    ip: me:user:life:1.0\n    pins: {q: cells.Q}\n"
