@@ -1,6 +1,7 @@
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVerilated.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVhdl.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpRtlRefused.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/MarkervpRtlCells.cmake")
 
 # markervp_add_rtl(NAME [IP ip] TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE] [FIGURES] [STUB_IF_REFUSED]
 #   [INCLUDE_DIRS dir…] [DEFINES NAME[=VALUE]…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS o…] [GHDL_OPTIONS o…]
@@ -54,6 +55,7 @@ function(markervp_add_rtl NAME)
     markervp_rtl_generics(generics ${RTL_PARAMETERS})
   endif()
   markervp_rtl_options(options)
+  markervp_rtl_cells("${folder}/cells" options ${sources})
 
   markervp_rtl_run(${NAME} "${VERILATOR_BIN}" --lint-only --top-module ${RTL_TOP} ${options} ${parameters} ${sources})
   markervp_rtl_return_if_refused(${NAME})
@@ -91,6 +93,11 @@ function(markervp_add_rtl NAME)
         list(APPEND synthesised ${files})
         list(REMOVE_DUPLICATES synthesised)
       endif()
+      # Yosys knows the primitives, and nothing of what is made of them.
+      set(cells ${files})
+      list(FILTER cells INCLUDE REGEX "/cells/[a-z][^/]*\\.v$")
+      list(APPEND synthesised ${cells})
+      list(REMOVE_DUPLICATES synthesised)
       list(FILTER synthesised INCLUDE REGEX "\\.(v|sv)$")
     endif()
     markervp_rtl_figures(${NAME} "${folder}" "${synthesised}")

@@ -3,6 +3,7 @@
 if(CMAKE_SCRIPT_MODE_FILE)
   cmake_minimum_required(VERSION 3.25)
 endif()
+include("${CMAKE_CURRENT_LIST_DIR}/MarkervpUnisim.cmake" OPTIONAL)  # in markervp it is a part of this text
 
 # VHDL into one file of Verilog, the generics set. The sources come in any order.
 function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS OPTIONS)
@@ -10,7 +11,8 @@ function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS OPTIONS)
   if(NOT GHDL_PROGRAM)
     markervp_vhdl_refuse("" "VHDL needs GHDL; install it with 'apt-get install ghdl'")
   endif()
-  markervp_vhdl_set_reals(given GENERICS ${ARGN})
+  markervp_vhdl_add_unisim(all ${ARGN})
+  markervp_vhdl_set_reals(given GENERICS ${all})
   # VHDL-2008 first; older sources use its new keywords as names.
   set(standard 08)
   set(sources ${given})
@@ -51,6 +53,26 @@ function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS OPTIONS)
     "always @* assert (\\2) else $error(\"VHDL assertion at \\1\");" text "${text}")
   # The types of VHDL have seen to widths; GHDL writes initial values and multiplexers with delayed assignments.
   file(WRITE "${FILE}" "/* verilator lint_off WIDTH */\n/* verilator lint_off INITIALDLY */\n/* verilator lint_off COMBDLY */\n${text}")
+endfunction()
+
+# With primitives where a source names their library, and the user gives none of his own.
+function(markervp_vhdl_add_unisim RESULT)
+  set(sources ${ARGN})
+  set(is_used FALSE)
+  foreach(source IN LISTS ARGN)
+    file(STRINGS "${source}" found REGEX "^[ \t]*([Uu][Ss][Ee]|[Pp][Aa][Cc][Kk][Aa][Gg][Ee])[ \t]+([Uu][Nn][Ii][Ss][Ii][Mm][.])?[Vv][Cc][Oo][Mm][Pp][Oo][Nn][Ee][Nn][Tt][Ss]")
+    if(found MATCHES "^[ \t]*[Uu]")
+      set(is_used TRUE)
+    elseif(found)
+      set(${RESULT} ${ARGN} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  if(is_used)
+    file(WRITE "${FILE}.unisim.vhd" "${markervp_unisim}")
+    list(APPEND sources "${FILE}.unisim.vhd")
+  endif()
+  set(${RESULT} ${sources} PARENT_SCOPE)
 endfunction()
 
 # GHDL 2.0 writes constants of more than 32 bits as text, "00…01", which is another number: eight bits for each character.

@@ -137,6 +137,15 @@ const std::regex& primitive_instance(bool vhdl) {
   return vhdl ? entity : verilog;
 }
 
+/// Whether the build has a model of a primitive: a file of models/xilinx/cells, in VHDL an entity
+/// of cmake/MarkervpUnisim.cmake.
+bool has_model(const std::string& primitive, bool vhdl) {
+  static const std::regex both(
+      "BUFG|BUFGMUX|BUFH|BUFIO|BUFR|FD[CPRS]E|IBUF|IBUFDS|IBUFG|IBUFGDS|LUT[1-6]|OBUF|OBUFDS");
+  static const std::regex verilog("BUFGCE|BUFGMUX_CTRL|CARRY4|LUT6_2|MUXF[78]|SRL16E|SRLC32E");
+  return std::regex_match(primitive, both) || (!vhdl && std::regex_match(primitive, verilog));
+}
+
 /// The text without comments and without the lines under `ifdef, which the compiler decides on.
 std::string unconditional(const std::string& text, bool vhdl) {
   std::string result;
@@ -278,13 +287,14 @@ std::string RtlFinder::data_file(const std::string& path) const {
   return known->second.size() == 1 ? known->second.front() : std::string();
 }
 
-// Their models are the vendor's, and may be in a folder, too.
+// Their models are the vendor's, and may be in a folder, too; of simple ones the build has some.
 void RtlFinder::add_primitives(RtlSources& sources) const {
   for (std::size_t i = 0; i < sources.files.size(); ++i) {
     const std::string file = sources.files[i];
     for (const std::string& primitive : primitives_in(text_of(file), is_vhdl(file))) {
       const auto model = modules_.find(primitive);
       if (model == modules_.end()) {
+        if (has_model(primitive, is_vhdl(file))) continue;
         sources.why = file + " instantiates " + primitive +
                       ", a primitive of the chip (UG953): name a folder that has a model of it";
         sources.files.clear();

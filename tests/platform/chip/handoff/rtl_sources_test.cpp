@@ -145,15 +145,42 @@ BOOST_FIXTURE_TEST_CASE(primitives_of_the_chip_want_a_model, Folders) {
     write("plain/helper.sv", "module helper(input clk);\n" + harmless + "endmodule\n");
     BOOST_TEST(why() == "");
   }
-  write("plain/helper.sv", "module helper(input clk);\n BUFG b(clk);\nendmodule\n");
+  write("plain/helper.sv", "module helper(input clk);\n IDDR b(clk);\nendmodule\n");
   BOOST_TEST(why() != "");
-  write("plain/bufg.v", "module BUFG(input I);\nendmodule\n");
+  write("plain/iddr.v", "module IDDR(input I);\nendmodule\n");
   BOOST_TEST(why() == "");
   write(
       "plain/own.vhd",
-      "entity own is end;\narchitecture a of own is begin\n b: ibufds port map (c, d, q);\nend;\n");
+      "entity own is end;\narchitecture a of own is begin\n b: carry4 port map (c, d, q);\nend;\n");
   std::filesystem::remove(*this / "plain/own.v");
-  BOOST_TEST(why().find("instantiates IBUFDS") != std::string::npos);
+  BOOST_TEST(why().find("instantiates CARRY4") != std::string::npos);
+}
+
+// What import takes for modelled, the build has, and the other way round.
+BOOST_FIXTURE_TEST_CASE(primitives_with_a_model_of_the_build_want_none, Folders) {
+  const auto why = [this] { return RtlFinder({folder("plain")}).find(own()).why; };
+  unsigned count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(MARKERVP_CELLS)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() != ".v" || name.find("xpm_") == 0) continue;
+    ++count;
+    BOOST_TEST(vp::read_text(entry.path().string(), "cell").find("module " + name) !=
+               std::string::npos);
+    write("plain/helper.sv", "module helper(input clk);\n " + name + " b(clk);\nendmodule\n");
+    BOOST_TEST(why() == "", name);
+  }
+  BOOST_TEST(count == 29u);
+  std::filesystem::remove(*this / "plain/own.v");
+  const std::string unisim = vp::read_text(MARKERVP_UNISIM, "primitives");
+  for (const std::string name :
+       {"BUFG", "BUFGMUX", "BUFH", "BUFIO", "BUFR", "FDRE", "FDSE", "FDCE", "FDPE", "IBUF", "IBUFG",
+        "IBUFDS", "IBUFGDS", "LUT1", "LUT6", "OBUF", "OBUFDS"}) {
+    BOOST_TEST(unisim.find("\nentity " + name + " is\n") != std::string::npos, name);
+    BOOST_TEST(unisim.find("\ncomponent " + name + "\n") != std::string::npos, name);
+    write("plain/own.vhd", "entity own is end;\narchitecture a of own is begin\n b: " + name +
+                               " port map (c, d);\nend;\n");
+    BOOST_TEST(why() == "", name);
+  }
 }
 
 // As projects keep copies of modules: the one beside what instantiates it.
