@@ -155,7 +155,7 @@ std::string program_target(const std::string& name, bool is_sdt) {
          "if(VENDOR_BSP)\n  set(vendor VENDOR_BSP \"${VENDOR_BSP}\")\nendif()\n"
          "if(sources)\n  markervp_add_program(" +
          name +
-         " SOURCES ${sources} ${drivers} LIBRARIES markervp::compat ${vendor})\n"
+         " SOURCES ${sources} DRIVERS ${drivers} LIBRARIES markervp::compat ${vendor})\n"
          "  # xparameters.h of this design, before that of the package.\n"
          "  target_include_directories(" +
          name +

@@ -375,6 +375,7 @@ BOOST_AUTO_TEST_CASE(a_program_shows_its_flow_by_the_names_that_it_uses) {
   BOOST_TEST(!is_for_device_tree({}, xparameters));
   const ImportedDesign design = imported(kit::small_handoff());
   BOOST_TEST(has(import_cmake("small", design, {"main.c"}, true), "PRIVATE SDT)"));
+  BOOST_TEST(has(import_cmake("small", design, {"main.c"}, true), " DRIVERS ${drivers} "));
   BOOST_TEST(!has(import_cmake("small", design, {"main.c"}, false), "SDT)"));
 }
 

@@ -133,6 +133,27 @@ BOOST_FIXTURE_TEST_CASE(an_ip_of_the_vendors_inside_wants_sources, Folders) {
   BOOST_TEST(names(find()) == expected);
 }
 
+BOOST_FIXTURE_TEST_CASE(a_module_without_a_port_of_the_design_is_another_one, Folders) {
+  handoff::Module module = own();
+  module.ports.push_back({});
+  module.ports.back().name = "S00_AXI_aclk";
+  module.ports.back().signal = "ps_FCLK_CLK0";
+  const auto find = [&] { return RtlFinder({folder("plain")}).find(module); };
+  BOOST_TEST(find().files.empty());
+  BOOST_TEST(find().why.find("own.v has no port 'S00_AXI_aclk' for its module 'own': it is another "
+                             "one, or of another revision") != std::string::npos,
+             find().why);
+  write("plain/own.v", "module own(input s00_axi_aclk);\n helper h();\nendmodule\n");
+  BOOST_TEST(find().why == "");
+  BOOST_TEST(find().files.size() == 2u);
+  write("plain/own.v", "`include \"ports.vh\"\nmodule own(`PORTS);\n helper h();\nendmodule\n");
+  write("plain/ports.vh", "`define PORTS input s00_axi_aclk\n");
+  BOOST_TEST(find().why == "");
+  module.ports.back().signal.clear();
+  write("plain/own.v", "module own;\n helper h();\nendmodule\n");
+  BOOST_TEST(find().why == "", "nothing is at the port");
+}
+
 // Verilator and GHDL know none of them.
 BOOST_FIXTURE_TEST_CASE(primitives_of_the_chip_want_a_model, Folders) {
   const auto why = [this] { return RtlFinder({folder("plain")}).find(own()).why; };
@@ -255,6 +276,9 @@ BOOST_FIXTURE_TEST_CASE(a_reset_is_high_if_the_design_says_so, Folders) {
 }
 
 BOOST_FIXTURE_TEST_CASE(an_imported_design_names_it, Folders) {
+  write("plain/own.v",
+        "module own #(parameter WIDTH = 1)(input s00_axi_aclk, output done);\n helper h();\n"
+        "endmodule\n");
   const auto handoff = handoff::read_hwh(kit::small_handoff().text(), "small.hwh");
   const auto design = block_design::import_design(handoff, RtlFinder({folder("plain")}));
   BOOST_TEST(design.text.find("    rtl: build/own_0.so\n") != std::string::npos);
