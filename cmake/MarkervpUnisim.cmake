@@ -363,3 +363,23 @@ begin
   O <= table(to_integer(at));
 end;
 ]==])
+
+# With primitives where a source names their library, and the user gives none of his own.
+function(markervp_vhdl_add_unisim RESULT)
+  set(sources ${ARGN})
+  set(is_used FALSE)
+  foreach(source IN LISTS ARGN)
+    file(STRINGS "${source}" found REGEX "^[ \t]*([Uu][Ss][Ee]|[Pp][Aa][Cc][Kk][Aa][Gg][Ee])[ \t]+([Uu][Nn][Ii][Ss][Ii][Mm][.])?[Vv][Cc][Oo][Mm][Pp][Oo][Nn][Ee][Nn][Tt][Ss]")
+    if(found MATCHES "^[ \t]*[Uu]")
+      set(is_used TRUE)
+    elseif(found)
+      set(${RESULT} ${ARGN} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  if(is_used)
+    file(WRITE "${FILE}.unisim.vhd" "${markervp_unisim}")
+    list(APPEND sources "${FILE}.unisim.vhd")
+  endif()
+  set(${RESULT} ${sources} PARENT_SCOPE)
+endfunction()
