@@ -469,21 +469,4 @@ BOOST_AUTO_TEST_CASE(ten_thousand_parts) {
   BOOST_TEST(parse_design(design.text, "design.yaml").parts.size() == 10'010u);
 }
 
-// The wizard's stream is often switched on and left open.
-BOOST_AUTO_TEST_CASE(a_stream_of_the_converter_matters_where_it_is_joined) {
-  for (const std::string joined : {"__NOC__", "samples"}) {
-    kit::HwhText text = kit::small_handoff();
-    text.module("xadc_0", "xilinx.com:ip:xadc_wiz:3.3",
-                kit::parameter("INTERFACE_SELECTION", "Enable_AXI") +
-                    kit::parameter("C_HAS_AXI4STREAM", "1"),
-                "", kit::bus("MASTER", "M_AXIS", joined, "axis"));
-    const ImportedDesign design = imported(text);
-    const auto part = std::find_if(design.parts.begin(), design.parts.end(),
-                                   [](const auto& one) { return one.name == "xadc_0"; });
-    BOOST_TEST_REQUIRE((part != design.parts.end()));
-    BOOST_TEST(part->why == (joined == "samples" ? "its stream M_AXIS is not modelled" : ""));
-    BOOST_CHECK_NO_THROW(parse_design(design.text, "design.yaml"));
-  }
-}
-
 BOOST_AUTO_TEST_SUITE_END()
