@@ -146,10 +146,14 @@ install(FILES
   cmake/MarkervpAssembly.h
   cmake/MarkervpHeap.cpp
   cmake/MarkervpRtl.cpp.in
+  cmake/MarkervpRtlCells.cmake
+  cmake/MarkervpRtlRefused.cmake
   cmake/MarkervpVerilated.cmake
+  cmake/MarkervpUnisim.cmake
   cmake/MarkervpVhdl.cmake
   cmake/MarkervpVendor.c
   cmake/MarkervpVendorDefaults.h
   cmake/MarkervpVendorRows.h
   DESTINATION "${package_folder}")
+install(DIRECTORY models/xilinx/cells DESTINATION "${CMAKE_INSTALL_DATADIR}/markervp")
 install(DIRECTORY sw/hal/freertos DESTINATION "${package_folder}")

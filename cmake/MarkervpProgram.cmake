@@ -200,15 +200,28 @@ extern \"C\" __attribute__((visibility(\"default\"))) void markervp_core1() {
   target_sources(${NAME} PRIVATE "${entry}" "${joined}")
 endfunction()
 
+# Drivers as a library, as the vendor's tools make one of them: the program takes from it what it calls and does not define itself.
+function(_markervp_add_drivers NAME)
+  set(drivers ${NAME}_drivers)
+  add_library(${drivers} STATIC ${ARGN})
+  get_target_property(libraries ${NAME} LINK_LIBRARIES)
+  target_link_libraries(${drivers} PRIVATE ${libraries})
+  target_include_directories(${drivers} BEFORE PRIVATE "$<TARGET_PROPERTY:${NAME},INCLUDE_DIRECTORIES>")
+  target_compile_definitions(${drivers} PRIVATE "$<TARGET_PROPERTY:${NAME},COMPILE_DEFINITIONS>")
+  target_compile_options(${drivers} PRIVATE "$<TARGET_PROPERTY:${NAME},COMPILE_OPTIONS>")
+  set_target_properties(${drivers} PROPERTIES POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden)
+  target_link_libraries(${NAME} PRIVATE ${drivers})
+endfunction()
+
 # A PS program: a plug-in that `markervp run --program FILE` loads. It finds the HAL in the process that loads it. The sources
 # define hal_program_info, or main(). Drivers of VENDOR_BSP stand on markervp::compat, which need not be named.
-# markervp_add_program(NAME SOURCES a.cpp… [CORE1 b.c…] [LIBRARIES l…] [VENDOR_BSP FOLDER] [FREERTOS FOLDER])
+# markervp_add_program(NAME SOURCES a.cpp… [CORE1 b.c…] [DRIVERS d.c…] [LIBRARIES l…] [VENDOR_BSP FOLDER] [FREERTOS FOLDER])
 # The same function builds the programs of sw/apps and those that use the installed package.
 function(markervp_add_program NAME)
-  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP;FREERTOS" "SOURCES;CORE1;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(PROGRAM "" "VENDOR_BSP;FREERTOS" "SOURCES;CORE1;DRIVERS;LIBRARIES" ${ARGN})
   if(NOT PROGRAM_SOURCES OR PROGRAM_UNPARSED_ARGUMENTS OR "VENDOR_BSP" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES
      OR "FREERTOS" IN_LIST PROGRAM_KEYWORDS_MISSING_VALUES)
-    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [CORE1 file…] [LIBRARIES library…] [VENDOR_BSP folder] [FREERTOS folder]): "
+    message(FATAL_ERROR "markervp_add_program(${NAME} SOURCES file… [CORE1 file…] [DRIVERS file…] [LIBRARIES library…] [VENDOR_BSP folder] [FREERTOS folder]): "
       "got '${ARGN}'")
   endif()
   set(description "${CMAKE_CURRENT_BINARY_DIR}/${NAME}_program.cpp")
@@ -242,6 +255,9 @@ function(markervp_add_program NAME)
   endif()
   if(PROGRAM_CORE1)
     _markervp_add_core1(${NAME} ${PROGRAM_CORE1})
+  endif()
+  if(PROGRAM_DRIVERS)
+    _markervp_add_drivers(${NAME} ${PROGRAM_DRIVERS})
   endif()
   # It lies where the chip has it, so that any variable is a DMA buffer; its heap follows. Its malloc() and new are its own.
   target_link_options(${NAME} PRIVATE "LINKER:-Ttext-segment=0x00100000" "LINKER:-Bsymbolic-functions")

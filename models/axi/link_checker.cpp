@@ -250,8 +250,10 @@ void LinkChecker::check_read_data(const Wires& wires, bool is_new) {
                                    [&](const Open& read) { return read.address.id == wires.r.id; });
   if (oldest == reads_.end()) {
     if (is_new)
-      broken(Rule::r_id, "RID is " + std::to_string(wires.r.id) + ", and " +
-                             std::to_string(reads_.size()) + " reads wait");
+      broken(Rule::r_id, reads_.empty()
+                             ? "RVALID without a read whose address has passed"
+                             : "RID is " + std::to_string(wires.r.id) + ", and of " +
+                                   std::to_string(reads_.size()) + " reads that wait none has it");
     early_data_ = wires.r.passes();
     return;
   }

@@ -408,4 +408,47 @@ BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_and_line) {
     BOOST_TEST(contains(outcome.err, part), outcome.err);
 }
 
+/// Four parts of a design, of which two cannot be read, in a project of their own.
+BOOST_AUTO_TEST_CASE(a_part_that_cannot_be_read_leaves_the_others_alone) {
+  const std::string folder = installed.beside("parts_source");
+  std::filesystem::create_directory(folder);
+  kit::write_file(folder + "/good.v",
+                  "module good(input clk, input a, output reg q);\n"
+                  "always @(posedge clk) q <= a;\nendmodule\n");
+  kit::write_file(folder + "/lacks.v",
+                  "module lacks(input a, output q);\nvendors_cell cell_i(a, q);\nendmodule\n");
+  kit::write_file(folder + "/pad.v",
+                  "module pad(input a, inout p);\nassign p = a ? 1'bz : 1'b0;\nendmodule\n");
+  kit::write_file(folder + "/bad.vhd",
+                  "library ieee;\nuse ieee.std_logic_1164.all;\nentity bad is\n"
+                  "  port (clk : in std_logc);\nend;\narchitecture rtl of bad is\nbegin\nend;\n");
+  std::string text =
+      "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+      "find_package(markervp REQUIRED COMPONENTS rtl)\n";
+  for (const std::string name : {"lacks.v", "pad.v", "bad.vhd", "good.v"}) {
+    const std::string top = name.substr(0, name.find('.'));
+    text += "markervp_add_rtl(" + top + " TOP " + top + " SOURCES " + name + " STUB_IF_REFUSED)\n";
+    text += "set_target_properties(" + top + " PROPERTIES FOLDER parts)\n";
+  }
+  kit::write_file(folder + "/CMakeLists.txt", text);
+  const kit::Outcome outcome = installed.configure(folder, "parts", {"-DCMAKE_BUILD_TYPE=Debug"});
+  BOOST_TEST_REQUIRE(outcome.exit_code == 0, outcome.err);
+  const auto reason = [&](const std::string& top) {
+    return kit::read_file(installed.beside("parts/" + top + ".refused"));
+  };
+  BOOST_TEST(contains(reason("lacks"), "lacks.v:2"), reason("lacks"));
+  BOOST_TEST(contains(reason("lacks"), "'vendors_cell' is in none of the sources"));
+  BOOST_TEST(contains(reason("pad"), "give 'p_i', 'p_o' and 'p_t'"), reason("pad"));
+  BOOST_TEST(contains(reason("bad"), "bad.vhd:4"), reason("bad"));
+  BOOST_TEST(contains(outcome.err, "The design has a stub in its place"), outcome.err);
+  const kit::Outcome built = installed.build_target("parts", "all");
+  BOOST_TEST_REQUIRE(built.exit_code == 0, built.out + built.err);
+  const auto exists = [&](const std::string& file) {
+    return std::filesystem::exists(installed.beside("parts/" + file));
+  };
+  BOOST_TEST(exists("good.so"));
+  for (const char* file : {"good.refused", "lacks.so", "pad.so", "bad.so"})
+    BOOST_TEST(!exists(file), file);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

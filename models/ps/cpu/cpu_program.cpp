@@ -281,10 +281,11 @@ MachineCode::Reach Cpu::reach() const {
   return Reach::returns;
 }
 
-// What it waits for inside of its endless loop may never come: a warning says so.
+// What it waits for inside of its endless loop may never come: a warning says so. A kernel with
+// tasks (hal_after_interrupt) computes between its interrupts in a task that idles, for ever.
 void Cpu::end_at_limit(const std::string& hint, bool sleeps) {
-  const bool waits =
-      signs_.loops() ? reach() != MachineCode::Reach::straight : signs_.sees_no_change();
+  const bool waits = signs_.loops() ? !after_interrupt_ && reach() != MachineCode::Reach::straight
+                                    : signs_.sees_no_change();
   // It leaves all to handlers: what keeps an interrupt from them?
   const bool leaves_it = signs_.loops() && !waits && irq_.handler();
   const std::string stopped =

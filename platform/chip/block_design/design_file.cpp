@@ -300,8 +300,28 @@ DesignFile parse_design(const std::string& text, const std::string& origin) {
   return DesignReader(text, origin).read();
 }
 
+namespace {
+
+/// CMake leaves the reason in the place of an object that cannot be built.
+void find_refused_rtl(DesignFile& design) {
+  namespace fs = std::filesystem;
+  for (PlacedPart& part : design.parts) {
+    if (part.rtl.empty() || part.is_stub()) continue;
+    const fs::path object = fs::path(design.file).parent_path() / part.rtl;
+    const fs::path reason = fs::path(object).replace_extension(".refused");
+    std::error_code ignored;
+    if (fs::exists(object, ignored) || !fs::exists(reason, ignored)) continue;
+    part.refused = vp::visible(vp::split(vp::read_text(reason.string(), "reason"), '\n').front());
+    part.as = "stub";
+  }
+}
+
+}  // namespace
+
 DesignFile read_design_file(const std::string& file) {
-  return parse_design(vp::read_text(file, "design"), file);
+  DesignFile design = parse_design(vp::read_text(file, "design"), file);
+  find_refused_rtl(design);
+  return design;
 }
 
 bool is_design_yaml(const std::string& file) {

@@ -24,8 +24,10 @@ struct End {
 struct PlacedPart {
   std::string name;
   std::string vlnv;
-  std::string as;     ///< "stub": not its model; "": what the shelf says
-  std::string rtl;    ///< Verilated RTL in its place, relative to the design's file; "": none
+  std::string as;   ///< "stub": not its model; "": what the shelf says
+  std::string rtl;  ///< Verilated RTL in its place, relative to the design's file; "": none
+  /// Why the build of the folder refused its RTL, so that it is a stub; "": it did not.
+  std::string refused;
   std::string place;  ///< file and line
   std::map<std::string, std::string> parameters;
   std::map<std::string, std::uint64_t> clocks;  ///< of a stub or RTL: frequency of an output, Hz

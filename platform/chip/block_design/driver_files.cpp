@@ -149,6 +149,25 @@ class Tables {
   std::set<std::string> written_;
 };
 
+/// Without a device tree a device without a driver has the names of its parameters: of C_BASEADDR
+/// XPAR_MATH_0_BASEADDR, of C_S00_AXI_BASEADDR XPAR_MATH_0_S00_AXI_BASEADDR.
+std::string parameter_names(const Handoff& handoff, const std::string& known) {
+  std::string text;
+  const auto define = [&](const handoff::Segment& segment, const std::string& parameter,
+                          std::uint64_t address) {
+    const std::string line =
+        "#define XPAR_" + vp::upper(segment.instance) + "_" + vp::upper(plain(parameter)) + " ";
+    if (parameter.empty() || (known + text).find(line) != std::string::npos) return;
+    text += line + vp::hex(address) + "U\n";
+  };
+  for (const handoff::Segment& segment : handoff.ps().segments) {
+    if (segment.instance == handoff.ps().instance) continue;
+    define(segment, segment.base_name, segment.base);
+    define(segment, segment.last_name, segment.last);
+  }
+  return text.empty() ? text : "#ifndef SDT\n" + text + "#endif\n";
+}
+
 /// With a system device tree a device without a driver has the names of its label and of its kind,
 /// whatever its bus is called: the first one's.
 std::string label_names(const Handoff& handoff, const std::string& known) {
@@ -189,7 +208,8 @@ DriverFiles driver_files(const Handoff& handoff, const std::vector<OwnDriver>& d
     const auto [file, text] = tables.table();
     if (!file.empty()) result.files.emplace_back(driver.name + "/" + file, text);
   }
-  result.names += label_names(handoff, xparameters + result.names);
+  const std::string by_parameter = parameter_names(handoff, xparameters + result.names);
+  result.names += label_names(handoff, xparameters + result.names) + by_parameter;
   if (!result.names.empty())
     result.names = "\n/* Drivers of the design's own IP */\n" + result.names;
   return result;

@@ -1,6 +1,9 @@
 #include <chip/block_design/import_fit.h>
 
 #include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace platform::block_design {
 
@@ -30,6 +33,39 @@ std::string driven_board_input(const IpRule& rule, const Module& module, const N
       continue;
     return "its pin " + pin + " is driven by " + source->module->instance + "." +
            source->port->name + ", and the model takes devices of the board only";
+  }
+  return {};
+}
+
+/// Streams that a model lacks: open ones matter to nothing.
+std::string joined_stream(const IpRule& rule, const Module& module) {
+  const handoff::BusInterface* stream =
+      rule.ip == "xadc_wiz" ? module.interface("M_AXIS") : nullptr;
+  return stream && !stream->bus.empty() ? "its stream M_AXIS is not modelled" : "";
+}
+
+/// Models of engines have one clock where the vendor's may have several. Clocks of one frequency
+/// may be the same by another way: building the design shows it.
+std::string several_clocks(const IpRule& rule, const Module& module, const Netlist& nets) {
+  using Pins = std::vector<std::string>;
+  static const std::map<std::string, std::vector<Pins>> groups{
+      {"axi_dma", {{"s_axi_lite_aclk", "m_axi_mm2s_aclk", "m_axi_s2mm_aclk", "m_axi_sg_aclk"}}},
+      {"axi_cdma", {{"m_axi_aclk", "s_axi_lite_aclk"}}},
+      {"axi_vdma",
+       {{"m_axi_mm2s_aclk", "m_axis_mm2s_aclk"}, {"m_axi_s2mm_aclk", "s_axis_s2mm_aclk"}}}};
+  const auto known = groups.find(rule.ip);
+  if (known == groups.end()) return {};
+  for (const Pins& pins : known->second) {
+    const Port* first = nullptr;
+    for (const std::string& pin : pins) {
+      const Port* port = module.port(pin);
+      const auto source = port ? nets.driver(*port) : std::nullopt;
+      if (!source || !source->port->hz) continue;
+      if (first && *nets.driver(*first)->port->hz != *source->port->hz)
+        return "its pins " + first->name + " and " + port->name +
+               " have different clocks, and its model has one";
+      if (!first) first = port;
+    }
   }
   return {};
 }
@@ -72,7 +108,9 @@ bool loads_memory(const Module& module) {
 std::string misfit(const IpRule& rule, const Module& module, const Netlist& nets,
                    const handoff::RtlFinder& rtl) {
   if (rule.ip == "blk_mem_gen") return wrong_memory(rule, module, nets, rtl);
-  const std::string wrong = wrong_parameter(rule, module);
+  std::string wrong = wrong_parameter(rule, module);
+  if (wrong.empty()) wrong = joined_stream(rule, module);
+  if (wrong.empty()) wrong = several_clocks(rule, module, nets);
   return wrong.empty() ? driven_board_input(rule, module, nets) : wrong;
 }
 

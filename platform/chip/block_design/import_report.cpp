@@ -140,7 +140,7 @@ std::string rtl_targets(const ImportedDesign& design) {
         (part.rtl.interfaces.empty()
              ? ""
              : "\n  INTERFACES \"" + vp::join(part.rtl.interfaces, "\" \"") + "\"") +
-        "\n  FIGURES)\nset_target_properties(" + part.target +
+        "\n  FIGURES STUB_IF_REFUSED)\nset_target_properties(" + part.target +
         " PROPERTIES LIBRARY_OUTPUT_DIRECTORY \"${CMAKE_BINARY_DIR}\")\n\n";
   }
   return text;
@@ -155,7 +155,7 @@ std::string program_target(const std::string& name, bool is_sdt) {
          "if(VENDOR_BSP)\n  set(vendor VENDOR_BSP \"${VENDOR_BSP}\")\nendif()\n"
          "if(sources)\n  markervp_add_program(" +
          name +
-         " SOURCES ${sources} ${drivers} LIBRARIES markervp::compat ${vendor})\n"
+         " SOURCES ${sources} DRIVERS ${drivers} LIBRARIES markervp::compat ${vendor})\n"
          "  # xparameters.h of this design, before that of the package.\n"
          "  target_include_directories(" +
          name +

@@ -2,6 +2,7 @@
 
 #include <strings.h>
 #include <vp/error.h>
+#include <vp/report.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 #include <xilinx/axi_dma/axi_dma.h>
@@ -343,6 +344,10 @@ Placed place_stub(const Placement& at) {
   }
   vp::Clock& own = clock ? *clock : at.ports.fclk_clk(0);
   auto stub = std::make_unique<xilinx::RegisterStub>(at.part.name.c_str(), own, at.part.vlnv);
+  if (!at.part.refused.empty())
+    vp::warn(*stub, "/markervp/block_design/rtl",
+             "a stub is in its place, for its RTL was refused when the folder was built: " +
+                 at.part.refused);
   Placed placed;
   xilinx::RegisterStub* stand_in = stub.get();
   for (const auto& [pin, hertz] : at.part.clocks) placed.clocks[pin] = &stub->add_clock(pin, hertz);

@@ -252,7 +252,7 @@ IpRule video_dma() {
 /// INIT_40 … INIT_5F of the converter, by the vendor's names of them.
 std::vector<ParameterRule> converter_parameters() {
   std::vector<ParameterRule> list{only("INTERFACE_SELECTION", "Enable_AXI"),
-                                  only("C_HAS_AXI4STREAM", "0"),
+                                  {"C_HAS_AXI4STREAM", "0", {"0", "1"}},
                                   only("C_HAS_EXTERNAL_MUX", "0"),
                                   only("TIMING_MODE", "Continuous"),
                                   {"CHANNEL_AVERAGING", "None", {"None", "16", "64", "256"}},
@@ -312,7 +312,7 @@ std::vector<IpRule> rules() {
       stream_fifo(),
       central_dma(),
       video_dma(),
-      {"xadc_wiz", Kind::model, "XADC with registers and alarms (PG091, UG480)",
+      {"xadc_wiz", Kind::model, "XADC with registers and alarms, without its stream (PG091, UG480)",
        converter_parameters()},
       {"axi_interconnect", Kind::bus,
        "AXI Interconnect (PG059): a way for addresses, with `read_latency` and `write_latency`"},

@@ -47,6 +47,8 @@ struct Segment {
   std::string instance, slave;
   std::uint64_t base = 0, last = 0;
   bool memory = false;  ///< else registers
+  /// The parameters of the slave that have its addresses: "C_S00_AXI_BASEADDR"; "": not said.
+  std::string base_name = {}, last_name = {};
 };
 
 /// A register that the hand-off names.

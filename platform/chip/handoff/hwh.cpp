@@ -210,6 +210,8 @@ class HwhReader {
     segment.base = number(node, "BASEVALUE");
     segment.last = number(node, "HIGHVALUE");
     segment.memory = attribute(node, "MEMTYPE") == "MEMORY";
+    segment.base_name = vp::visible(attribute(node, "BASENAME"));
+    segment.last_name = vp::visible(attribute(node, "HIGHNAME"));
     if (segment.last < segment.base)
       xml_.fail(node, "the segment of " + segment.instance + " ends before it begins");
     return segment;

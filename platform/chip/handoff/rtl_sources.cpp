@@ -1,5 +1,6 @@
 #include <chip/handoff/rtl_sources.h>
 
+#include <chip/handoff/rtl_primitives.h>
 #include <chip/handoff/xml.h>
 #include <vp/error.h>
 #include <vp/file.h>
@@ -121,63 +122,6 @@ void RtlFinder::add_file(const std::string& path) {
 
 namespace {
 
-/// Of the 7 series (UG953).
-const std::regex& primitive_instance(bool vhdl) {
-  static const std::string names =
-      "(BSCANE2|BUFG|BUFGCE|BUFGCE_1|BUFGCTRL|BUFGMUX|BUFGMUX_1|BUFGMUX_CTRL|BUFH|BUFHCE|BUFIO|"
-      "BUFMR|BUFMRCE|BUFR|CAPTUREE2|CARRY4|CFGLUT5|DNA_PORT|DSP48E1|EFUSE_USR|FD[CPRS]E|FDCE_1|"
-      "FIFO18E1|FIFO36E1|FRAME_ECCE2|GT[HPX]E2_CHANNEL|GT[HPX]E2_COMMON|IBUF|IBUFDS|"
-      "IBUFDS_DIFF_OUT|IBUFDS_GTE2|IBUFG|IBUFGDS|ICAPE2|IDDR|IDDR_2CLK|IDELAYCTRL|IDELAYE2|IN_FIFO|"
-      "IOBUF|IOBUFDS|ISERDESE2|LD[CP]E|LUT[1-6]|LUT6_2|MMCME2_ADV|MMCME2_BASE|MUXF[78]|OBUF|OBUFDS|"
-      "OBUFT|OBUFTDS|ODDR|ODELAYE2|OSERDESE2|OUT_FIFO|PLLE2_ADV|PLLE2_BASE|PS7|RAM(32|64)M|"
-      "RAM(32|64|128|256)X1[DS]|RAMB18E1|RAMB36E1|SRL16E|SRLC32E|STARTUPE2|USR_ACCESSE2|XADC)";
-  static const std::regex verilog("\\b" + names + "\\s*(#\\s*\\(|[A-Za-z_]\\w*\\s*\\()");
-  static const std::regex entity(":\\s*" + names + "\\s+(generic|port)\\s+map\\b",
-                                 std::regex::icase);
-  return vhdl ? entity : verilog;
-}
-
-/// The text without comments and without the lines under `ifdef, which the compiler decides on.
-std::string unconditional(const std::string& text, bool vhdl) {
-  std::string result;
-  bool in_block = false;
-  unsigned depth = 0;
-  for (const std::string& line : vp::split(text, '\n')) {
-    std::string kept;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const std::string_view two = std::string_view(line).substr(i, 2);
-      if (in_block) {
-        if (two == "*/") ++i;
-        in_block = two != "*/";
-      } else if (two == (vhdl ? "--" : "//")) {
-        break;
-      } else if (!vhdl && two == "/*") {
-        in_block = true;
-      } else {
-        kept += line[i];
-      }
-    }
-    if (kept.find("`ifdef") != kept.npos || kept.find("`ifndef") != kept.npos) ++depth;
-    if (depth == 0) result += kept + '\n';
-    if (kept.find("`endif") != kept.npos && depth != 0) --depth;
-  }
-  return result;
-}
-
-/// Primitives of the chip that a source instantiates, each once.
-std::set<std::string> primitives_in(const std::string& source, bool vhdl) {
-  std::set<std::string> found;
-  const std::string text = unconditional(source, vhdl);
-  for (std::sregex_iterator at(text.begin(), text.end(), primitive_instance(vhdl)), end; at != end;
-       ++at) {
-    std::string name = (*at)[1];
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return std::toupper(c); });
-    found.insert(std::move(name));
-  }
-  return found;
-}
-
 /// Generics of VHDL that are vectors, by name, and their values in the source: no numbers, so that
 /// a build cannot set them.
 std::map<std::string, std::uint64_t> vector_generics(const std::string& text) {
@@ -231,6 +175,19 @@ std::vector<std::string> declared_parameters(const std::string& file, const Modu
   return result;
 }
 
+/// A port of the design that the source of a module does not speak of: it is another module, or
+/// another revision of it; empty: none. A file that it includes may have ports, too.
+std::string lacking_port(const std::string& file, const Module& module) {
+  const std::string text = text_of(file);
+  if (text.find("`include") != std::string::npos) return {};
+  std::set<std::string> known;
+  for (const std::string_view word : words(text, is_vhdl(file) ? "--" : "//"))
+    known.insert(vp::lower(word));
+  for (const Port& port : module.ports)
+    if (!port.signal.empty() && known.count(vp::lower(port.name)) == 0) return port.name;
+  return {};
+}
+
 /// The RTL that sets of files of a component.xml list, and the IP of the vendor's (.xci).
 std::vector<fs::path> listed_files(const pugi::xml_node& root, const fs::path& folder,
                                    const std::set<std::string>& sets) {
@@ -257,8 +214,15 @@ RtlSources RtlFinder::find(const Module& module) const {
   }
   std::string refused;
   const auto file = modules_.find(sources.top);
-  if (!sources.files.empty() && file != modules_.end())
-    sources.parameters = declared_parameters(file->second, module, sources.top, refused);
+  if (!sources.files.empty() && file != modules_.end()) {
+    const std::string top = file_of(sources.top, sources.files.front(), sources.files);
+    const std::string port = lacking_port(top, module);
+    if (port.empty())
+      sources.parameters = declared_parameters(top, module, sources.top, refused);
+    else
+      refused = top + " has no port '" + port + "' for its module '" + sources.top +
+                "': it is another one, or of another revision than the design";
+  }
   if (refused.empty()) return sources;
   sources.why = refused;
   sources.files.clear();
@@ -278,13 +242,14 @@ std::string RtlFinder::data_file(const std::string& path) const {
   return known->second.size() == 1 ? known->second.front() : std::string();
 }
 
-// Their models are the vendor's, and may be in a folder, too.
+// Their models are the vendor's, and may be in a folder, too; of simple ones the build has some.
 void RtlFinder::add_primitives(RtlSources& sources) const {
   for (std::size_t i = 0; i < sources.files.size(); ++i) {
     const std::string file = sources.files[i];
     for (const std::string& primitive : primitives_in(text_of(file), is_vhdl(file))) {
       const auto model = modules_.find(primitive);
       if (model == modules_.end()) {
+        if (has_model(primitive, is_vhdl(file))) continue;
         sources.why = file + " instantiates " + primitive +
                       ", a primitive of the chip (UG953): name a folder that has a model of it";
         sources.files.clear();

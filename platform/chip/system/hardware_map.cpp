@@ -164,13 +164,16 @@ const vp::RegisterBank* bank_of(const sc_core::sc_object& object) {
 }
 
 /// The module behind a region of the address map: it has the region's name, or the region is called
-/// after it and one of its members ("gic_distributor": distributor of gic).
+/// after it and one of its members ("gic_distributor": distributor of gic; of a stub in the
+/// capitals of the hand-off).
 const sc_core::sc_object* object_of(const std::string& parent, const std::string& region) {
   const std::string prefix = parent + ".";
   if (const auto* found = sc_core::sc_find_object((prefix + region).c_str())) return found;
   for (std::size_t at = region.find('_'); at != std::string::npos; at = region.find('_', at + 1)) {
     std::string name = region;
     name[at] = '.';
+    if (const auto* found = sc_core::sc_find_object((prefix + name).c_str())) return found;
+    name.replace(at + 1, std::string::npos, vp::upper(name.substr(at + 1)));
     if (const auto* found = sc_core::sc_find_object((prefix + name).c_str())) return found;
   }
   return nullptr;

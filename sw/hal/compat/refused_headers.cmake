@@ -26,6 +26,8 @@ _refuse("The device is not modelled: an access would end the program. Leave it o
   xl2cc_counter.h xpm_counter.h)
 _refuse("The clock wizard is modelled, but its driver is not part of markervp::compat. Write its registers (PG065) with Xil_Out32()"
   xclk_wiz.h xclk_wiz_hw.h)
+_refuse("CMSIS-DSP is a library of ARM's and no part of a board support package. Name its sources and folder in this build: \
+target_sources() and target_include_directories() behind markervp_add_program()" arm_math.h arm_const_structs.h)
 _refuse("The Zynq-7000 has no such device: this program is for a Zynq UltraScale+" xipipsu.h xsecure.h xsecure_aes.h xsecure_sha.h
   xdpdma.h xdppsu.h xavbuf.h xzdma.h xcsudma.h xsysmonpsu.h xresetps.h xqspipsu.h xrtcpsu.h pm_api_sys.h pm_defs.h)
 _refuse("OpenAMP loads a second program, and such a loader has nothing to load here: name the other program's sources behind CORE1 in markervp_add_program(), or start core 1 at a function of this one" openamp/open_amp.h

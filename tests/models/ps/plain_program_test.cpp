@@ -282,6 +282,16 @@ BOOST_AUTO_TEST_CASE(what_waits_in_an_endless_loop_is_told) {
   }
 }
 
+// The task of a kernel that idles looks at variables of the kernel.
+BOOST_AUTO_TEST_CASE(a_kernel_with_tasks_idles_for_ever_without_failure) {
+  Run run("plain", {"cpu.timeout=300 us"}, Case::waits_for_ever);
+  run.cpu.after_interrupt([] {});
+  run.start();
+  run.cpu.check();
+  BOOST_TEST(run.cpu.reached_limit());
+  BOOST_TEST(run.reports.warnings().empty());
+}
+
 BOOST_AUTO_TEST_CASE(what_keeps_an_interrupt_from_a_program_that_leaves_all_to_handlers_is_told) {
   for (const std::string stopped : {"; interrupt 61 is not enabled", ""}) {
     Run run("plain", {"cpu.timeout=300 us"}, Case::leaves_all_to_handlers);

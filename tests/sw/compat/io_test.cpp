@@ -10,6 +10,11 @@
 
 #include "fake_hal.h"
 
+extern "C" {
+void write_undeclared(unsigned address, unsigned value);
+unsigned read_undeclared(unsigned address);
+}
+
 namespace {
 
 using fake_hal::Access;
@@ -167,6 +172,13 @@ BOOST_AUTO_TEST_CASE(the_lock_of_the_slcr_has_its_addresses) {
   Xil_Out32(XSLCR_UNLOCK_ADDR, XSLCR_UNLOCK_CODE);
   BOOST_REQUIRE_EQUAL(state().accesses.size(), 1);
   BOOST_CHECK(state().accesses[0] == (Access{true, 0xF800'0008, 0xDF0D}));
+}
+
+BOOST_AUTO_TEST_CASE(code_without_the_header_reaches_devices) {
+  write_undeclared(gpio, 0x8765'4321);
+  BOOST_CHECK_EQUAL(read_undeclared(gpio), 0x8765'4321u);
+  BOOST_REQUIRE_EQUAL(state().accesses.size(), 2);
+  BOOST_CHECK(state().accesses[0] == (Access{true, 0x4120'0000, 0x8765'4321}));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

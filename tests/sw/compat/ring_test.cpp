@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(registers_and_descriptors_are_printed) {
   XAxiDma_BdSetId(packet, 0x1234);
   XAxiDma_DumpBd(packet);
   XAxiDma_BdRingDumpRegs(rx);
-  BOOST_TEST(state().console.find("buffer 10000000, control c000040, status 0, ID 1234\n") !=
+  BOOST_TEST(state().console.find("buffer 10000000, control C000040, status 0, ID 1234\n") !=
              std::string::npos);
   BOOST_TEST(state().console.find("channel 40400030:\n control 0, status 1,") != std::string::npos);
   BOOST_CHECK_EQUAL(XAxiDma_BdRingGetSr(rx), dmasr::Halted);

@@ -12,6 +12,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -226,6 +227,20 @@ BOOST_AUTO_TEST_CASE(stubs_and_memories_have_the_names_of_their_drivers) {
     BOOST_TEST(header.find("#define " + std::string(line)) != std::string::npos, line);
 }
 
+BOOST_AUTO_TEST_CASE(an_interrupt_of_a_stub_with_two_interfaces_has_its_name) {
+  std::string text = replaced(small_design(), "parts:\n",
+                              "parts:\n  sums:\n    ip: me:user:sums:1.0\n"
+                              "    buses: {S00_AXI: periph.M03_AXI, S_AXI_INTR: periph.M04_AXI}\n");
+  text = replaced(text, "  ps.M_AXI_GP0:\n",
+                  "  ps.M_AXI_GP0:\n    sums.S00_AXI: [0x43000000, 64 KiB]\n"
+                  "    sums.S_AXI_INTR: [0x43010000, 64 KiB]\n");
+  text = replaced(text, "      IRQ_F2P: lines.dout",
+                  "      Core0_nIRQ: sums.irq\n      IRQ_F2P: lines.dout");
+  const std::string header = hardware_map(*Built(text).zynq).xparameters;
+  BOOST_TEST(header.find("#define XPAR_FABRIC_SUMS_IRQ_INTR 31\n") != std::string::npos);
+  BOOST_TEST(header.find("#define XPAR_SUMS_S00_AXI_BASEADDR 0x43000000U\n") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(stubs_may_drive_each_other) {
   const std::string ring =
       "parts:\n  life:\n    ip: me:user:life:1.0\n    pins: {q: cells.Q}\n"
@@ -254,6 +269,23 @@ BOOST_AUTO_TEST_CASE(an_output_that_no_model_has_rests_and_leaves_the_verdict_op
   BOOST_TEST(stubs_behind("axi_dma_0.axi_dma_tstvec") == "axi_dma_0.axi_dma_tstvec");
   BOOST_TEST(stubs_behind("axi_dma_0.mm2s_prmry_reset_out_n") == "", "nothing is in reset");
   BOOST_TEST(stubs_behind("external.buttons") == "");
+}
+
+BOOST_AUTO_TEST_CASE(rtl_that_the_build_refused_is_a_stub_with_its_reason) {
+  const kit::TemporaryFolder folder;
+  const std::string file = folder / "design.yaml";
+  vp::write_file(file, replaced(small_design(), "ip: me:user:own:1.0",
+                                "ip: me:user:own:1.0\n    rtl: build/own_0.so"));
+  const auto own = [&] { return *block_design::read_design_file(file).part("own_0"); };
+  BOOST_TEST(!own().is_stub(), "not built yet: it must be built");
+  std::filesystem::create_directory(folder / "build");
+  vp::write_file(folder / "build/own_0.refused", "no module 'BUFG'\nmore\n");
+  BOOST_TEST(own().is_stub());
+  BOOST_TEST(own().refused == "no module 'BUFG'");
+  const block_design::DesignFile design = block_design::read_design_file(file);
+  BOOST_TEST(design.part("axi_gpio_0")->refused == "");
+  vp::write_file(folder / "build/own_0.so", "object");
+  BOOST_TEST(!own().is_stub(), "what was built since is not refused");
 }
 
 // What is clocked goes before its clock then, too: the sanitizers of CI see to it.

@@ -361,6 +361,22 @@ BOOST_AUTO_TEST_CASE(drivers_of_own_ip_have_the_tables_of_their_instances) {
   BOOST_TEST(is_for_device_tree({"f(XPAR_OWN_0_BASEADDR);"}, vendors + none.names));
 }
 
+// The older tools name the addresses of an IP without a driver by its parameters.
+BOOST_AUTO_TEST_CASE(addresses_have_the_names_of_the_parameters_that_hold_them) {
+  std::string text = kit::small_handoff().text();
+  text = replaced(text, "INSTANCE=\"own_0\" MASTERBUSINTERFACE",
+                  "BASENAME=\"C_BASEADDR\" HIGHNAME=\"C_HIGHADDR\" INSTANCE=\"own_0\" "
+                  "MASTERBUSINTERFACE");
+  const std::string names = driver_files(read_hwh(text, "small.hwh"), {}, "").names;
+  BOOST_TEST(has(names,
+                 "#ifndef SDT\n#define XPAR_OWN_0_BASEADDR 0x43C00000U\n"
+                 "#define XPAR_OWN_0_HIGHADDR 0x43C0FFFFU\n#endif\n"),
+             names);
+  const std::string known = "#define XPAR_OWN_0_BASEADDR 0x43C00000U\n";
+  BOOST_TEST(!has(driver_files(read_hwh(text, "small.hwh"), {}, known).names,
+                  "#ifndef SDT\n#define XPAR_OWN_0_BASEADDR"));
+}
+
 BOOST_AUTO_TEST_CASE(a_program_shows_its_flow_by_the_names_that_it_uses) {
   const std::string xparameters =
       "#define XPAR_A_0_BASEADDR 1\n#ifndef SDT\n#define XPAR_A_0_DEVICE_ID 0\n#endif\n"
@@ -375,6 +391,7 @@ BOOST_AUTO_TEST_CASE(a_program_shows_its_flow_by_the_names_that_it_uses) {
   BOOST_TEST(!is_for_device_tree({}, xparameters));
   const ImportedDesign design = imported(kit::small_handoff());
   BOOST_TEST(has(import_cmake("small", design, {"main.c"}, true), "PRIVATE SDT)"));
+  BOOST_TEST(has(import_cmake("small", design, {"main.c"}, true), " DRIVERS ${drivers} "));
   BOOST_TEST(!has(import_cmake("small", design, {"main.c"}, false), "SDT)"));
 }
 

@@ -133,6 +133,27 @@ BOOST_FIXTURE_TEST_CASE(an_ip_of_the_vendors_inside_wants_sources, Folders) {
   BOOST_TEST(names(find()) == expected);
 }
 
+BOOST_FIXTURE_TEST_CASE(a_module_without_a_port_of_the_design_is_another_one, Folders) {
+  handoff::Module module = own();
+  module.ports.push_back({});
+  module.ports.back().name = "S00_AXI_aclk";
+  module.ports.back().signal = "ps_FCLK_CLK0";
+  const auto find = [&] { return RtlFinder({folder("plain")}).find(module); };
+  BOOST_TEST(find().files.empty());
+  BOOST_TEST(find().why.find("own.v has no port 'S00_AXI_aclk' for its module 'own': it is another "
+                             "one, or of another revision") != std::string::npos,
+             find().why);
+  write("plain/own.v", "module own(input s00_axi_aclk);\n helper h();\nendmodule\n");
+  BOOST_TEST(find().why == "");
+  BOOST_TEST(find().files.size() == 2u);
+  write("plain/own.v", "`include \"ports.vh\"\nmodule own(`PORTS);\n helper h();\nendmodule\n");
+  write("plain/ports.vh", "`define PORTS input s00_axi_aclk\n");
+  BOOST_TEST(find().why == "");
+  module.ports.back().signal.clear();
+  write("plain/own.v", "module own;\n helper h();\nendmodule\n");
+  BOOST_TEST(find().why == "", "nothing is at the port");
+}
+
 // Verilator and GHDL know none of them.
 BOOST_FIXTURE_TEST_CASE(primitives_of_the_chip_want_a_model, Folders) {
   const auto why = [this] { return RtlFinder({folder("plain")}).find(own()).why; };
@@ -145,15 +166,42 @@ BOOST_FIXTURE_TEST_CASE(primitives_of_the_chip_want_a_model, Folders) {
     write("plain/helper.sv", "module helper(input clk);\n" + harmless + "endmodule\n");
     BOOST_TEST(why() == "");
   }
-  write("plain/helper.sv", "module helper(input clk);\n BUFG b(clk);\nendmodule\n");
+  write("plain/helper.sv", "module helper(input clk);\n IDDR b(clk);\nendmodule\n");
   BOOST_TEST(why() != "");
-  write("plain/bufg.v", "module BUFG(input I);\nendmodule\n");
+  write("plain/iddr.v", "module IDDR(input I);\nendmodule\n");
   BOOST_TEST(why() == "");
   write(
       "plain/own.vhd",
-      "entity own is end;\narchitecture a of own is begin\n b: ibufds port map (c, d, q);\nend;\n");
+      "entity own is end;\narchitecture a of own is begin\n b: carry4 port map (c, d, q);\nend;\n");
   std::filesystem::remove(*this / "plain/own.v");
-  BOOST_TEST(why().find("instantiates IBUFDS") != std::string::npos);
+  BOOST_TEST(why().find("instantiates CARRY4") != std::string::npos);
+}
+
+// What import takes for modelled, the build has, and the other way round.
+BOOST_FIXTURE_TEST_CASE(primitives_with_a_model_of_the_build_want_none, Folders) {
+  const auto why = [this] { return RtlFinder({folder("plain")}).find(own()).why; };
+  unsigned count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(MARKERVP_CELLS)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() != ".v" || name.find("xpm_") == 0) continue;
+    ++count;
+    BOOST_TEST(vp::read_text(entry.path().string(), "cell").find("module " + name) !=
+               std::string::npos);
+    write("plain/helper.sv", "module helper(input clk);\n " + name + " b(clk);\nendmodule\n");
+    BOOST_TEST(why() == "", name);
+  }
+  BOOST_TEST(count == 29u);
+  std::filesystem::remove(*this / "plain/own.v");
+  const std::string unisim = vp::read_text(MARKERVP_UNISIM, "primitives");
+  for (const std::string name :
+       {"BUFG", "BUFGMUX", "BUFH", "BUFIO", "BUFR", "FDRE", "FDSE", "FDCE", "FDPE", "IBUF", "IBUFG",
+        "IBUFDS", "IBUFGDS", "LUT1", "LUT6", "OBUF", "OBUFDS"}) {
+    BOOST_TEST(unisim.find("\nentity " + name + " is\n") != std::string::npos, name);
+    BOOST_TEST(unisim.find("\ncomponent " + name + "\n") != std::string::npos, name);
+    write("plain/own.vhd", "entity own is end;\narchitecture a of own is begin\n b: " + name +
+                               " port map (c, d);\nend;\n");
+    BOOST_TEST(why() == "", name);
+  }
 }
 
 // As projects keep copies of modules: the one beside what instantiates it.
@@ -228,6 +276,9 @@ BOOST_FIXTURE_TEST_CASE(a_reset_is_high_if_the_design_says_so, Folders) {
 }
 
 BOOST_FIXTURE_TEST_CASE(an_imported_design_names_it, Folders) {
+  write("plain/own.v",
+        "module own #(parameter WIDTH = 1)(input s00_axi_aclk, output done);\n helper h();\n"
+        "endmodule\n");
   const auto handoff = handoff::read_hwh(kit::small_handoff().text(), "small.hwh");
   const auto design = block_design::import_design(handoff, RtlFinder({folder("plain")}));
   BOOST_TEST(design.text.find("    rtl: build/own_0.so\n") != std::string::npos);
@@ -236,7 +287,7 @@ BOOST_FIXTURE_TEST_CASE(an_imported_design_names_it, Folders) {
   const std::string cmake = block_design::import_cmake("small", design, {}, false);
   BOOST_TEST(cmake.find("COMPONENTS programs rtl)") != std::string::npos);
   BOOST_TEST(cmake.find("markervp_add_rtl(own_0 TOP own SOURCES\n  \"") != std::string::npos);
-  BOOST_TEST(cmake.find("PARAMETERS WIDTH=8\n  FIGURES)") != std::string::npos);
+  BOOST_TEST(cmake.find("PARAMETERS WIDTH=8\n  FIGURES STUB_IF_REFUSED)") != std::string::npos);
   BOOST_TEST(block_design::import_report(handoff, design, "").find("| me:user:own:1.0 | RTL |") !=
              std::string::npos);
 }

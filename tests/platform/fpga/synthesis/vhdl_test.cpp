@@ -253,9 +253,24 @@ BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_line_and_what_to_do) {
   check_says(refusal("own"), {"own.vhd:5:", "\"size\" has no default value", "--parameter"});
   BOOST_TEST(refusal("own", {{"size", 3}}) == "");
   write("own.vhd",
-        "library unisim;\nuse unisim.vcomponents.all;\nentity own is end;\n"
+        "library xpm;\nuse xpm.vcomponents.all;\nentity own is end;\n"
         "architecture rtl of own is\nbegin\nend;\n");
-  check_says(refusal("own"), {"own.vhd:1:", "add the sources of the library 'unisim'", "vendor's"});
+  check_says(refusal("own"), {"own.vhd:1:", "add the sources of the library 'xpm'", "vendor's"});
+}
+
+BOOST_AUTO_TEST_CASE(simple_primitives_of_unisim_are_there) {
+  const auto own = [this](const std::string& instance) {
+    write("own.vhd",
+          "library ieee;\nuse ieee.std_logic_1164.all;\nlibrary UNISIM;\n"
+          "use UNISIM.VComponents.all;\nentity own is\n"
+          "  port (clk, d : in std_logic; q : out std_logic);\nend;\n"
+          "architecture rtl of own is\nbegin\n  i : " +
+              instance + ";\nend;\n");
+  };
+  own("FDRE port map (C => clk, D => d, CE => '1', R => '0', Q => q)");
+  BOOST_TEST(refusal("own") == "");
+  own("OSERDESE2 port map (CLK => clk, D1 => d, OQ => q)");
+  check_says(refusal("own"), {"own.vhd:10:", "oserdese2"});
 }
 
 BOOST_AUTO_TEST_CASE(a_port_without_bits_is_0) {

@@ -1,0 +1,8 @@
+// Output buffer (UG953). The electrical parameters change nothing here.
+module OBUF #(
+  parameter CAPACITANCE = "DONT_CARE", parameter DIFF_TERM = "FALSE", parameter DQS_BIAS = "FALSE",
+  parameter IBUF_DELAY_VALUE = "0", parameter IBUF_LOW_PWR = "TRUE", parameter IFD_DELAY_VALUE = "AUTO",
+  parameter IOSTANDARD = "DEFAULT", parameter SLEW = "SLOW", parameter DRIVE = 12
+)(output O, input I);
+  assign O = I;
+endmodule

@@ -1,0 +1,3 @@
+int driver_answer(void) {
+  return 42;
+}
