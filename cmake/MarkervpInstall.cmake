@@ -148,6 +148,7 @@ install(FILES
   cmake/MarkervpRtl.cpp.in
   cmake/MarkervpVerilated.cmake
   cmake/MarkervpVhdl.cmake
+  cmake/MarkervpVhdlConstants.cmake
   cmake/MarkervpVendor.c
   cmake/MarkervpVendorDefaults.h
   cmake/MarkervpVendorRows.h
