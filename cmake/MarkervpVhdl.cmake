@@ -163,6 +163,16 @@ function(markervp_vhdl_refuse SAID)
   message(FATAL_ERROR "${SAID}${NAME}: ${what}")
 endfunction()
 
+# A script leaves it in a file.
+function(markervp_vhdl_warn)
+  string(CONCAT what ${ARGN})
+  if(CMAKE_SCRIPT_MODE_FILE)
+    file(WRITE "${FILE}.warned" "${what}")
+  else()
+    message(WARNING "markervp_add_rtl(${NAME}): ${what}")
+  endif()
+endfunction()
+
 # Analyses what the top needs, in the order in which it needs it. A source that GHDL cannot read matters if the top needs it.
 function(markervp_vhdl_analyse TOP FOLDER OPTIONS LIBRARIES WORK ERRORS)
   file(REMOVE_RECURSE "${FOLDER}")

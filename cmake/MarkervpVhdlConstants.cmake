@@ -38,7 +38,7 @@ function(markervp_vhdl_restore_high_words STANDARD TEXT VHDL)
   endif()
   if(left)
     list(JOIN left ", " left)
-    message(WARNING "${NAME}: GHDL 2.0 takes a constant for 0 if only its highest 32 of 64, 96, 128 … bits are not all 0, and '${TOP}' has "
+    markervp_vhdl_warn("GHDL 2.0 takes a constant for 0 if only its highest 32 of 64, 96, 128 … bits are not all 0, and '${TOP}' has "
       "constants of ${left} bits that came out as 0: if a function, arithmetic or a table makes one that is not 0, write it as one literal, x\"…\"")
   endif()
   set(${TEXT} "${second}" PARENT_SCOPE)
