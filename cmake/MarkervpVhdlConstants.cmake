@@ -1,4 +1,7 @@
 # Constants of VHDL that GHDL 2.0 writes wrong into its Verilog: for MarkervpVhdl.cmake.
+if(CMAKE_SCRIPT_MODE_FILE)
+  cmake_minimum_required(VERSION 3.25)
+endif()
 
 # GHDL 2.0 writes constants of more than 32 bits as text, "00…01", which is another number: eight bits for each character.
 function(markervp_vhdl_mend_constants TEXT)
