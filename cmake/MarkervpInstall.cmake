@@ -151,6 +151,7 @@ install(FILES
   cmake/MarkervpVerilated.cmake
   cmake/MarkervpUnisim.cmake
   cmake/MarkervpVhdl.cmake
+  cmake/MarkervpVhdlConstants.cmake
   cmake/MarkervpVendor.c
   cmake/MarkervpVendorDefaults.h
   cmake/MarkervpVendorRows.h

@@ -13,7 +13,7 @@ namespace {
 
 using vp::Rule;
 
-std::string text_of(const Address& a) {
+[[gnu::cold]] std::string text_of(const Address& a) {
   static constexpr const char* types[] = {"FIXED", "INCR", "WRAP", "reserved"};
   return std::string(types[static_cast<unsigned>(a.burst) & 3]) + " of " + std::to_string(a.beats) +
          " beats of " + std::to_string(a.beat_bytes()) + " bytes from " + vp::hex(a.address);
@@ -52,6 +52,10 @@ auto request_changes(const AddressChannel& held, const AddressChannel& now) {
 }
 
 }  // namespace
+
+void LinkChecker::broken(Rule rule, const std::string& what) {
+  reports_.violate(rule, &clock_, what);
+}
 
 void LinkChecker::edge(const Wires& wires, bool in_reset) {
   if (in_reset || was_reset_) check_reset(wires, in_reset);
@@ -163,7 +167,9 @@ void LinkChecker::check_requests_stable(const Wires& wires) {
 
 // Of AXI4-Lite all of this is so by itself: one whole word.
 void LinkChecker::check_request(const Address& a, bool read) {
-  const auto report = [&](Rule of_aw) { broken(read ? vp::on_ar(of_aw) : of_aw, text_of(a)); };
+  const auto report = [&](Rule of_aw) __attribute__((cold)) {
+    broken(read ? vp::on_ar(of_aw) : of_aw, text_of(a));
+  };
   const std::uint64_t bytes = std::uint64_t{a.beats} * a.beat_bytes();
   if (a.beat_bytes() > shape_.data_bytes) report(Rule::aw_size);
   if ((a.cache & 0xC) != 0 && (a.cache & 2) == 0) report(Rule::aw_cache);

@@ -54,7 +54,7 @@ class LinkChecker {
   void check_write_beat(const WriteChannel& beat);
   void match_data();
   void forget_answered(const Wires& wires);
-  void broken(vp::Rule rule, const std::string& what) { reports_.violate(rule, &clock_, what); }
+  [[gnu::cold]] void broken(vp::Rule rule, const std::string& what);
 
   const vp::Clock& clock_;
   const Shape shape_;

@@ -52,6 +52,7 @@ PinsToTlm::PinsToTlm(sc_core::sc_module_name name, const vp::Clock& clock, const
       write("write", clock.scheduler()),
       clock_(clock),
       shape_(shape),
+      all_lanes_(lanes(0, shape.data_bytes)),
       wires_(wires) {}
 
 void PinsToTlm::sample() {
@@ -122,6 +123,7 @@ void PinsToTlm::copy(Burst& burst, const WriteBeat& beat) const {
   const auto lane =
       static_cast<unsigned>(burst.address.beat_address(burst.beat) & (shape_.data_bytes - 1));
   copy_bytes(&burst.data[offset], &beat.data[lane], bytes);
+  if ((beat.strobes & all_lanes_) == all_lanes_) return;
   for (unsigned i = 0; i < bytes; ++i) {
     if (beat.strobes[lane + i]) continue;
     if (burst.enables.empty()) burst.enables.assign(burst.data.size(), TLM_BYTE_ENABLED);

@@ -104,6 +104,7 @@ class PinsToTlm final : public sc_core::sc_module {
 
   const vp::Clock& clock_;
   const Shape shape_;
+  const Strobes all_lanes_;
   Wires& wires_;
 
   std::deque<Burst> requests_;  ///< writes whose data are not complete

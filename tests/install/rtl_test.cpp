@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "../integration/pictures.h"
@@ -76,6 +77,31 @@ struct Rtl {
                         more + ")\n");
     // None of these runs for long: Verilator's runtime compiles in a third of the time.
     return installed.configure(folder, name, {"-DCMAKE_BUILD_TYPE=Debug"});
+  }
+  /// A part of a design.
+  kit::Outcome configure_part(const std::string& name, const std::string& file,
+                              const std::string& text) const {
+    const std::string folder = installed.beside(name + "_source");
+    std::filesystem::create_directory(folder);
+    kit::write_file(folder + "/" + file, text);
+    kit::write_file(folder + "/CMakeLists.txt",
+                    "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+                    "find_package(markervp REQUIRED COMPONENTS rtl)\nmarkervp_add_rtl(" +
+                        name + " TOP " + name + " SOURCES " + file + ")\n");
+    return installed.configure(folder, name);
+  }
+  static std::string vhdl(const std::string& name, const std::string& port,
+                          const std::string& body) {
+    return "library ieee;\nuse ieee.std_logic_1164.all;\nuse ieee.numeric_std.all;\nentity " +
+           name + " is\n  " + port + "\nend;\narchitecture rtl of " + name + " is begin\n  " +
+           body + "\nend;\n";
+  }
+  /// CMake wraps its lines.
+  static std::string words(const std::string& text) {
+    std::istringstream stream(text);
+    std::string word, all;
+    while (stream >> word) all += (all.empty() ? "" : " ") + word;
+    return all;
   }
   /// How a run ends that loads it.
   kit::Outcome load(const std::string& name, const std::string& ports,
@@ -392,20 +418,34 @@ BOOST_AUTO_TEST_CASE(changed_rtl_is_looked_at_anew) {
   BOOST_TEST(!contains(notes(), "{\"registered\""));
 }
 
-BOOST_AUTO_TEST_CASE(what_ghdl_refuses_is_told_with_file_and_line) {
-  const std::string folder = installed.beside("vhdl_source");
-  std::filesystem::create_directory(folder);
-  kit::write_file(folder + "/bad.vhd",
-                  "library ieee;\nuse ieee.std_logic_1164.all;\nentity bad is\n"
-                  "  port (clk : in std_logc);\nend;\narchitecture rtl of bad is\nbegin\nend;\n");
-  kit::write_file(folder + "/CMakeLists.txt",
-                  "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
-                  "find_package(markervp REQUIRED COMPONENTS rtl)\n"
-                  "markervp_add_rtl(bad IP corner_detection TOP bad SOURCES bad.vhd)\n");
-  const kit::Outcome outcome = installed.configure(folder, "vhdl");
-  BOOST_TEST(outcome.exit_code != 0);
-  for (const char* part : {"bad.vhd:4", "std_logc", "GHDL cannot synthesise 'bad'", "mend"})
-    BOOST_TEST(contains(outcome.err, part), outcome.err);
+// Of RTL that replaces no IP.
+BOOST_AUTO_TEST_CASE(what_cannot_be_a_part_is_told_when_it_is_configured) {
+  const auto refused = [&](const std::string& file, const std::string& text, const Words& parts) {
+    const std::string name = file.substr(0, file.find('.'));
+    const kit::Outcome outcome = configure_part(name, file, text);
+    BOOST_TEST(outcome.exit_code != 0, file);
+    for (const std::string& part : parts) BOOST_TEST(contains(words(outcome.err), part), file);
+  };
+  refused("locked.v", "module locked(input clk);\n`pragma protect begin_protected\nendmodule\n",
+          {"locked.v' is encrypted", "take a model in its place"});
+  refused("open.v",
+          "module open(input clk, output q);\n  vendor_cell u(.c(clk), .q(q));\nendmodule\n",
+          {"open.v:2", "module 'vendor_cell' is in none of the sources", "add the file"});
+  refused("both.v", "module both(input clk,\n  inout sda);\nendmodule\n",
+          {"both.v:2", "port 'sda'", "give 'sda_i', 'sda_o' and 'sda_t'"});
+  refused("bad.vhd", vhdl("bad", "port (clk : in std_logc);", ""),
+          {"bad.vhd:5", "std_logc", "GHDL cannot synthesise 'bad'", "mend"});
+  refused("shift.vhd",
+          vhdl("shift", "port (clk : in std_logic; q : out unsigned(63 downto 0));",
+               "q <= shift_left(to_unsigned(1, 64), 63);"),
+          {"shift.vhd:8", "shift_left(to_unsigned(1, 64)", "write it as one literal"});
+  // What may be wrong is said, for zeros are legal.
+  const kit::Outcome table = configure_part(
+      "table", "table.vhd",
+      vhdl("table", "port (clk : in std_logic; q : out unsigned(63 downto 0));",
+           "q <= unsigned'(x\"8000000100000000\") - unsigned'(x\"0000000100000000\");"));
+  BOOST_TEST(table.exit_code == 0, table.err);
+  BOOST_TEST(contains(words(table.err), "constants of 64 bits that came out as 0"), table.err);
 }
 
 /// Four parts of a design, of which two cannot be read, in a project of their own.

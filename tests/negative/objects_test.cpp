@@ -126,6 +126,8 @@ BOOST_AUTO_TEST_CASE(evaluations_that_end_or_damage_the_process) {
   ends("abort", {name, "it called abort()", moment});
   ends("terminate", {name, "it called std::terminate()", moment});
   ends("fault", {name, "segmentation fault: write to 0x00000000 (a null pointer)", moment});
+  for (const std::string way : {"blocked", "blocked_thread"})
+    ends(way, {name, "segmentation fault: write to 0x00000000", moment});
   ends("division", {name, "arithmetic trap", moment});
   ends("illegal", {name, "illegal instruction", moment});
   ends("fork", {name, "it called fork()", moment});

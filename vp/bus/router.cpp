@@ -77,6 +77,14 @@ tlm_utils::simple_initiator_socket<MmLink>& Router::map(const std::string& regio
   return link.socket;
 }
 
+// SystemC would say that a port is not bound.
+void Router::before_end_of_elaboration() {
+  if (socket.get_base_port().bind_count() > 0) return;
+  throw InputError(std::string(name()) + ": no master is connected, and it has " +
+                   std::to_string(regions_.size()) +
+                   " regions: bind a master to its socket, or leave it out");
+}
+
 const Router::Region* Router::find(std::uint64_t address) const {
   const auto above = std::upper_bound(regions_.begin(), regions_.end(), address,
                                       [](std::uint64_t a, const Region& r) { return a < r.base; });

@@ -181,20 +181,28 @@ std::uint64_t StreamChecker::kept(unsigned first_bit, std::uint64_t ps) const {
 }
 
 void StreamChecker::check_lanes(bool last_beat) {
+  bool legal = true;
   for (const Part& part : parts_) {
     const std::uint64_t bits = part.wire->bits();
-    if (part.part.field == StreamField::keep && !last_beat) {
+    if (part.part.field == StreamField::keep) {
       const unsigned lanes = std::min(part.part.bits, bytes_ - part.part.low);
-      if (bits != ones(lanes)) broken(Rule::stream_keep_gap, "a word with TKEEP ", bits);
+      if (bits == ones(lanes)) continue;
+      legal = false;
+      if (!last_beat) broken(Rule::stream_keep_gap, "a word with TKEEP ", bits);
     } else if (part.part.field == StreamField::strobe) {
       std::uint64_t keep = 0;
       for (const Part& other : parts_) {
         if (other.part.field == StreamField::keep && other.part.low / 32 == part.part.low / 32)
           keep |= other.wire->bits() << other.part.low % 32;
       }
-      if ((bits & ~keep) != 0) broken(Rule::stream_keep_strb, "a beat with TSTRB ", bits);
+      if ((bits & ~keep) == 0) continue;
+      legal = false;
+      broken(Rule::stream_keep_strb, "a beat with TSTRB ", bits);
     }
   }
+  if (!legal) return;
+  low_keep_.second = *low_keep_.first;
+  for (auto& [place, value] : lanes_) value = *place;
 }
 
 void StreamChecker::broken(Rule rule, const std::string& what, std::uint64_t value) {

@@ -288,11 +288,16 @@ void Clock::run_edge() {
   }
 }
 
+// Nearly always, a module that is visited is awake, stays so, and no alarm is due.
 void Clock::run_attended(std::size_t from) {
-  for_each_attended(from, [&](std::size_t i) {
-    const bool due = alarms_.bound() <= cycle_ && alarms_[i] == cycle_;
-    if (due) alarms_.set(i, never);
-    if (places_[i].awake || due) places_[i].module->edge();
+  for_each_attended(from, [this](std::size_t i) {
+    if (alarms_.bound() <= cycle_ && alarms_[i] == cycle_) {
+      alarms_.set(i, never);
+      places_[i].module->edge();
+    } else if (places_[i].awake) {
+      places_[i].module->edge();
+      if (places_[i].awake) return;
+    }
     if (!places_[i].awake && alarms_[i] == never) attend_to(i);
   });
 }

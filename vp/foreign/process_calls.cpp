@@ -85,6 +85,19 @@ int with_arguments(const char* first, std::va_list rest, Call call) {
   return call(arguments);
 }
 
+/// A thread's signals, but never those of a fault: with these blocked, the host's kernel would end
+/// the process at the next fault, and nothing could be said.
+int block(const char* name, int how, const sigset_t* signals, sigset_t* before) {
+  sigset_t allowed;
+  if (signals && how != SIG_UNBLOCK) {
+    allowed = *signals;
+    for (const int fault : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP})
+      sigdelset(&allowed, fault);
+    signals = &allowed;
+  }
+  return the_real<int(int, const sigset_t*, sigset_t*)>(name)(how, signals, before);
+}
+
 using Execute = int(const char*, char* const*);
 using ExecuteWith = int(const char*, char* const*, char* const*);
 
@@ -141,6 +154,14 @@ int kill(pid_t process, int signal) noexcept {
                       (process < -1 && -process == ::getpgrp());
   if (itself && signal != 0 && is_fatal(signal)) forbid("kill");
   return static_cast<int>(vp::call_kernel(SYS_kill, process, signal));
+}
+
+int sigprocmask(int how, const sigset_t* signals, sigset_t* before) noexcept {
+  return block("sigprocmask", how, signals, before);
+}
+
+int pthread_sigmask(int how, const sigset_t* signals, sigset_t* before) noexcept {
+  return block("pthread_sigmask", how, signals, before);
 }
 
 int execve(const char* path, char* const arguments[], char* const environment[]) noexcept {

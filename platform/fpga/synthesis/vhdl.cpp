@@ -1,6 +1,7 @@
 #include <fpga/synthesis/vhdl.h>
 
 #include <algorithm>
+#include <iostream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -107,6 +108,9 @@ Design verilog_of(const Design& design, const fs::path& folder) {
     const fs::path refused = verilog.string() + ".refused";
     refuse(design, message_of(fs::exists(refused) ? vp::read_text(refused, "message") : end.out));
   }
+  if (const fs::path warned = verilog.string() + ".warned"; fs::exists(warned))
+    std::cerr << "markervp: warning: " << design.top << ": " << vp::read_text(warned, "warning")
+              << std::endl;
   Design made = design;
   made.sources = {verilog};
   made.parameters.clear();

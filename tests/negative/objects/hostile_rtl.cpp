@@ -33,6 +33,13 @@ void end(const std::string& way) {
   if (way == "abort") std::abort();
   if (way == "terminate") std::terminate();
   if (way == "fault") *nowhere = 1;
+  if (way == "blocked" || way == "blocked_thread") {
+    sigset_t all;
+    sigfillset(&all);
+    if (way == "blocked") ::sigprocmask(SIG_BLOCK, &all, nullptr);
+    if (way == "blocked_thread") ::pthread_sigmask(SIG_SETMASK, &all, nullptr);
+    *nowhere = 1;
+  }
   if (way == "division") zero = 100 / zero;
   if (way == "illegal") __builtin_trap();
   if (way == "overflow") zero = recurse(0);

@@ -157,6 +157,21 @@ BOOST_FIXTURE_TEST_CASE(debug_access_ends_with_its_region, Bench) {
   BOOST_TEST(router.find(0x1000)->link->writes == 0u);
 }
 
+BOOST_FIXTURE_TEST_CASE(a_router_without_a_master_is_refused_by_name, kit::Simulation) {
+  vp::Router router("lonely");
+  kit::MemoryTarget memory("memory", 0x1000);
+  router.map("memory", 0, 0x1000).bind(memory.socket);
+  std::string message;
+  try {
+    sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  } catch (const vp::InputError& error) {
+    message = error.what();
+  }
+  BOOST_TEST(message ==
+             "lonely: no master is connected, and it has 1 regions: bind a master to its socket, "
+             "or leave it out");
+}
+
 BOOST_FIXTURE_TEST_CASE(overlapping_regions_are_refused_by_name, Bench) {
   for (const std::uint64_t base : {0x0F01ull, 0x1000ull, 0x1FFFull}) {
     try {

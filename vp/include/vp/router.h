@@ -66,6 +66,7 @@ class Router : public sc_core::sc_module, private BusStage {
   const Region* find(std::uint64_t address) const;
 
  private:
+  void before_end_of_elaboration() override;
   void b_transport(int initiator, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   unsigned transport_dbg(int initiator, tlm::tlm_generic_payload& payload);
   bool get_direct_mem_ptr(int initiator, tlm::tlm_generic_payload& payload, tlm::tlm_dmi& dmi);

@@ -30,9 +30,9 @@ class StreamChecker final : public SignalListener {
 
   /// A beat passes: whether its bytes are what receivers expect.
   void pass(bool last) {
-    bool whole = *low_keep_.first == low_keep_.second;
-    for (const auto& [place, ones] : lanes_) whole = whole && *place == ones;
-    if (!whole) check_lanes(last);
+    bool known = *low_keep_.first == low_keep_.second;
+    for (const auto& [place, legal] : lanes_) known = known && *place == legal;
+    if (!known) check_lanes(last);
   }
   /// The master drops what it offers now, because it is reset.
   void excuse();
@@ -66,7 +66,7 @@ class StreamChecker final : public SignalListener {
   std::uint64_t kept(unsigned first_bit, std::uint64_t ps) const;
   void check_lanes(bool last);
   void check_width();
-  void broken(Rule rule, const std::string& what, std::uint64_t value);
+  [[gnu::cold]] void broken(Rule rule, const std::string& what, std::uint64_t value);
 
   const Clock& clock_;
   const unsigned bytes_;
@@ -75,7 +75,8 @@ class StreamChecker final : public SignalListener {
   std::vector<Part> parts_;
   const std::vector<Reset> resets_;
   std::vector<Level> reset_levels_;
-  /// TKEEP and TSTRB, and what they are where all bytes count.
+  /// TKEEP and TSTRB, and values of them that break no rule inside a packet: first those where all
+  /// bytes count, later those of the last beat that was looked at.
   std::vector<std::pair<const std::uint32_t*, std::uint32_t>> lanes_;
   std::pair<const std::uint8_t*, std::uint8_t> low_keep_;
   bool listens_ = false;                   ///< to TLAST and the parts

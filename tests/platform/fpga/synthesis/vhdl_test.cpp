@@ -3,6 +3,8 @@
 #include <fpga/synthesis/vhdl.h>
 
 #include <boost/test/unit_test.hpp>
+#include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -305,6 +307,38 @@ BOOST_AUTO_TEST_CASE(options_reach_ghdl) {
   BOOST_TEST(synthesise(own, timing).netlist.cells.ff == 8u);
   own.ghdl_options = {"a;b"};
   BOOST_CHECK_THROW(synthesise(own, timing), vp::InputError);
+}
+
+// GHDL takes a constant of 64 bits for 0 if only its highest 32 are not all 0.
+BOOST_AUTO_TEST_CASE(constants_that_were_lost_are_restored_or_told) {
+  const auto source = [](const std::string& declared, const std::string& value) {
+    return logic +
+           "entity mask is\n  port (d : in unsigned(63 downto 0); q : out unsigned(63 downto 0));\n"
+           "end;\narchitecture rtl of mask is\n  " +
+           declared + "\nbegin\n  q <= d xor " + value + ";\nend;\n";
+  };
+  const kit::TemporaryFolder made;
+  const auto translated = [&](const std::string& declared, const std::string& value) {
+    write("mask.vhd", source(declared, value));
+    return kit::read_file(verilog_of(design("mask"), made.path()).sources.front());
+  };
+  const std::string zeros(63, '0');
+  std::ostringstream said;
+  std::streambuf* const usual = std::cerr.rdbuf(said.rdbuf());
+  const std::string restored =
+      translated("constant high : unsigned(63 downto 0) := (63 => '1', others => '0');", "high");
+  const std::string zero =
+      translated("constant none : unsigned(63 downto 0) := (others => '0');", "none");
+  const std::string silent = said.str();
+  const std::string told = translated("", "(unsigned'(x\"80000000\") * unsigned'(x\"80000000\"))");
+  std::cerr.rdbuf(usual);
+  BOOST_TEST(restored.find("64'b1" + zeros) != restored.npos, restored);
+  BOOST_TEST(zero.find("64'b0" + zeros) != zero.npos, zero);
+  BOOST_TEST(silent == "");
+  BOOST_TEST(told.find("64'b0" + zeros) != told.npos, told);
+  check_says(said.str(), {"warning: mask:", "constants of 64 bits that came out as 0"});
+  write("mask.vhd", source("", "shift_left(to_unsigned(1, 64), 63)"));
+  check_says(refusal("mask"), {"mask.vhd:10", "shift_left", "write it as one literal"});
 }
 
 BOOST_AUTO_TEST_CASE(a_top_that_is_not_there_or_twice_is_refused) {
