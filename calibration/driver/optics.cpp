@@ -101,9 +101,11 @@ void measure_optics(Random& random, std::uint32_t width, std::uint32_t height) {
   // own.
   marker::Optics pinhole = optics;
   pinhole.lens = {optics.lens.camera};
+  double reach = 0.8;  // sharp and blurred
   for (Candidate& c : candidates) {
     c.frame.optics = &pinhole;
-    c.fit.reach = 0.8;
+    c.fit.reach = reach;
+    reach = reach < 2.4 ? reach + 0.3 : 0.8;
     c.levels = {4000, 50000};
   }
   const marker::Dictionary& dictionary = *marker::find_dictionary("4x4_250");

@@ -21,6 +21,10 @@ constexpr double still = 0.05;
 /// What is left of a side's own error beside that of its strips, in deviations of their transition:
 /// 0.002 px in sharp pictures, 0.006 px in blurred ones (measured).
 constexpr double side_error = 0.007;
+/// Where the border's cell is narrower than the first number, in deviations of a transition, the
+/// code behind it shows in the dark level: sides are off by up to the second, all of them alike and
+/// each by itself (measured).
+constexpr double clear_cell = 6, narrow_error = 0.05;
 
 LitFrame lit(const CameraFrame& frame, const std::uint16_t* light) {
   return {{{frame.image.pixels, light}, frame.image.width, frame.image.height},
@@ -56,15 +60,22 @@ void add_product(std::array<double, 64>& covariance, const std::array<double, 8>
 
 /// Adds what the strips of a side cannot see: a shift that all sides have in common, and one of
 /// each.
-void widen(const GeneralLens& lens, double common_shift, QuadFit& fit) {
+void widen(const GeneralLens& lens, double common_shift, const QuadFitOptions& options,
+           QuadFit& fit) {
   std::array<Side, 4> sides = sides_of(fit.ideal, fit.image);
   const double deviation = fit.reach / reach_in_deviations;
   std::array<double, 4> scale{};
-  double pixel = 0;
-  for (unsigned i = 0; i < 4; ++i) scale[i] = lay_in_picture(lens, sides[i], pixel);
+  double pixel = 0, cell = clear_cell * deviation;
+  for (unsigned i = 0; i < 4; ++i) {
+    scale[i] = lay_in_picture(lens, sides[i], pixel);
+    cell = std::min(cell, cell_at(sides[i], options) / scale[i]);
+  }
+  const double rest = narrow_error * std::min(clear_cell - cell / deviation, 1.0);
+  common_shift = std::sqrt(common_shift * common_shift + rest * rest);
+  const double of_side = std::sqrt(side_error * side_error + rest * rest);
   for (unsigned i = 0; i < 4; ++i) {
     const unsigned before = (i + 3) % 4, next = (i + 1) % 4;
-    const double shift = common_shift * deviation, own = side_error * deviation;
+    const double shift = common_shift * deviation, own = of_side * deviation;
     const Point both = moved(sides[before], sides[i], shift * scale[before], shift * scale[i]);
     fit.common[2 * i] = both.x;
     fit.common[2 * i + 1] = both.y;
@@ -150,7 +161,8 @@ LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions
   const LightLevels levels{fit.dark, fit.bright};
   fit.dark = dark;
   fit.bright = bright;
-  if (fit.refusal == Refusal::none) widen(frame.optics->lens, frame.optics->common_shift, fit);
+  if (fit.refusal == Refusal::none)
+    widen(frame.optics->lens, frame.optics->common_shift, options, fit);
   return levels;
 }
 

@@ -92,6 +92,7 @@
   X(inner_cells, "two neighbouring cells of a marker: an edge between them?")                 \
   X(inner_edges, "such an edge laid out in the picture")                                      \
   X(inner_strips, "a strip across one of them")                                               \
+  X(inner_blurs, "such an edge freed from the blur of the cells around")                      \
   X(inner_pixels, "a pixel of such a strip")                                                  \
   X(curves_made, "a response curve's table filled")                                           \
   X(outlines, "a blob's outline looked for, set up and concluded")                            \
