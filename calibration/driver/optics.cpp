@@ -89,7 +89,7 @@ void measure_optics(Random& random, std::uint32_t width, std::uint32_t height) {
       "lit_fit",
       [&] {
         for (Candidate& c : candidates) {
-          c.levels = marker::refine_through_optics(c.frame, once(), c.fit);
+          c.levels = marker::refine_through_optics(c.frame, once(), marker::FoundIn::levels, c.fit);
         }
       },
       [&] {
