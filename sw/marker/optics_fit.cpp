@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace marker {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 /// The narrow one, px across the edge: half of the shade between two markers that are 2 px apart is
 /// beyond it, and a blob's extremes are nearer than that to its corners (measured).
 constexpr double narrow_reach = 1.2;
-/// Passes in light before the last: the edge's width is another one there, and the side moves.
+/// Passes in light before the last, where corners were found in the light of another curve.
 constexpr unsigned passes_in_light = 2;
 /// A pass that moves no corner farther is enough, px.
 constexpr double still = 0.05;
@@ -26,19 +27,20 @@ constexpr double side_error = 0.007;
 /// each by itself (measured).
 constexpr double clear_cell = 6, narrow_error = 0.05;
 
-/// Where in light an edge is expected that was found in grey levels, deviations of its transition
-/// outwards: a curve of exponent 2.2 has the middle of light at 0.73 of the way between the levels,
-/// and shifts by 0.39 (measured).
-constexpr double shift_of_middle = 1.7;
+/// A curve of exponent 2.2 has the middle of light at 0.73 of the way between the levels. An edge
+/// that was found in grey levels is shifted by 0.39 of its transition's deviation, outwards, and
+/// narrower by 0.04: that much for how far the middle is off (measured).
+constexpr double shift_of_middle = 1.7, narrowing_of_middle = 0.19;
 
-double expected_shift(const std::uint16_t* light, const QuadFit& fit) {
+/// How far off the middle is, as share of the way between both levels. 0 where levels are light.
+double middle_of_light(const std::uint16_t* light, const QuadFit& fit) {
   const auto dark = static_cast<std::uint32_t>(fit.dark);
   const auto bright = static_cast<std::uint32_t>(fit.bright);
-  if (!(dark < bright && bright < 256)) return 0;
+  if (!(dark < bright && bright < std::tuple_size_v<LightTable>) || light == linear_light())
+    return 0;
   const std::uint32_t middle = (light[dark] + light[bright]) / 2;
   const std::uint16_t* const at = std::lower_bound(light + dark, light + bright, middle);
-  const double share = static_cast<double>(at - light - dark) / (bright - dark);
-  return shift_of_middle * (share - 0.5);
+  return static_cast<double>(at - light - dark) / (bright - dark) - 0.5;
 }
 
 LitFrame lit(const CameraFrame& frame, const std::uint16_t* light) {
@@ -73,17 +75,21 @@ void add_product(std::array<double, 64>& covariance, const std::array<double, 8>
   }
 }
 
-/// Moves all sides out by as many px of the picture.
-void move_out(const GeneralLens& lens, double shift, QuadFit& fit) {
+/// Moves all sides from where they were found in grey levels to where light is expected to have
+/// them: near enough for the last pass.
+void go_to_light(const Optics& optics, QuadFit& fit) {
+  const double middle = middle_of_light(optics.light, fit);
+  const double shift = shift_of_middle * middle * fit.reach / reach_in_deviations;
   std::array<Side, 4> sides = sides_of(fit.ideal, fit.image);
   std::array<double, 4> moves{};
   double pixel = 0;
-  for (unsigned i = 0; i < 4; ++i) moves[i] = shift * lay_in_picture(lens, sides[i], pixel);
+  for (unsigned i = 0; i < 4; ++i) moves[i] = shift * lay_in_picture(optics.lens, sides[i], pixel);
   for (unsigned i = 0; i < 4; ++i) {
     const unsigned before = (i + 3) % 4;
     fit.ideal[i] = fit.ideal[i] + moved(sides[before], sides[i], moves[before], moves[i]);
-    fit.image[i] = distort(lens, fit.ideal[i]);
+    fit.image[i] = distort(optics.lens, fit.ideal[i]);
   }
+  fit.reach *= 1 - narrowing_of_middle * middle;
 }
 
 /// Adds what the strips of a side cannot see: a shift that all sides have in common, and one of
@@ -173,11 +179,9 @@ LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions
   FitEffort effort;
   const Quad found = fit.image;
   const double dark = fit.dark, bright = fit.bright;
-  if (place == FoundIn::levels) {
-    move_out(light.lens, expected_shift(frame.optics->light, fit) * fit.reach / reach_in_deviations,
-             fit);
-  }
-  for (unsigned pass = 0; pass < passes_in_light && fit.refusal == Refusal::none; ++pass) {
+  if (place == FoundIn::levels) go_to_light(*frame.optics, fit);
+  const unsigned passes = place == FoundIn::levels ? 0 : passes_in_light;
+  for (unsigned pass = 0; pass < passes && fit.refusal == Refusal::none; ++pass) {
     const Quad before = fit.image;
     fit.refusal = improve(light, in_light, Pass::coarse, effort, fit);
     if (farthest_move(fit.image, before) <= still) break;
