@@ -57,6 +57,7 @@ void tell([[maybe_unused]] const FitEffort& effort, [[maybe_unused]] bool in_dma
   work(Work::lit_strips, effort.strips);
   work(Work::lit_level_reads, effort.level_reads);
   work(Work::lit_level_pixels, effort.level_pixels);
+  work(Work::lit_refitted, effort.refitted);
   work(Work::lit_transitions, effort.transitions);
   if (in_dma_memory) work(Work::crossings_dma, effort.crossings);
 }

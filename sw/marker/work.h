@@ -84,6 +84,7 @@
   X(lit_strips, "a strip of light laid across a side")                                        \
   X(lit_level_reads, "such a strip asked for the light beside its edge")                      \
   X(lit_level_pixels, "a pixel beyond a transition read for it")                              \
+  X(lit_refitted, "a crossing in light taken into a line once more")                          \
   X(lit_transitions, "a crossing in light whose blur is measured")                            \
   X(lens_bends, "a point led once through a polynomial lens of any model")                    \
   X(lens_angles, "the angle of a ray, for a fisheye lens")                                    \
