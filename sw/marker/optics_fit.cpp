@@ -105,12 +105,12 @@ void widen(const GeneralLens& lens, double common_shift, const QuadFitOptions& o
     scale[i] = lay_in_picture(lens, sides[i], pixel);
     cell = std::min(cell, cell_at(sides[i], options) / scale[i]);
   }
-  const double rest = narrow_error * std::min(clear_cell - cell / deviation, 1.0);
-  common_shift = std::sqrt(common_shift * common_shift + rest * rest);
-  const double of_side = std::sqrt(side_error * side_error + rest * rest);
+  // A transition may have no width at all.
+  const double rest = narrow_error * std::min(clear_cell * deviation - cell, deviation);
+  const double shift = std::sqrt(common_shift * common_shift * deviation * deviation + rest * rest);
+  const double own = std::sqrt(side_error * side_error * deviation * deviation + rest * rest);
   for (unsigned i = 0; i < 4; ++i) {
     const unsigned before = (i + 3) % 4, next = (i + 1) % 4;
-    const double shift = common_shift * deviation, own = of_side * deviation;
     const Point both = moved(sides[before], sides[i], shift * scale[before], shift * scale[i]);
     fit.common[2 * i] = both.x;
     fit.common[2 * i + 1] = both.y;
