@@ -277,6 +277,30 @@ BOOST_AUTO_TEST_CASE(a_blurred_marker_alone_tells_the_curve) {
   }
 }
 
+/// Pixels that are black or white have transitions of no width.
+BOOST_AUTO_TEST_CASE(edges_without_width_have_a_covariance) {
+  constexpr int cell = 10, left = 200, top = 150, id = 3;
+  View view{views()[0].scene, {}};
+  view.light.assign(views()[0].light.size(), 1);
+  for (int i = 0; i < 36; ++i) {
+    const int row = i / 6, column = i % 6;
+    const bool is_border = row == 0 || row == 5 || column == 0 || column == 5;
+    if (!is_border && !platform::is_black(platform::marker_word(id), row - 1, column - 1)) continue;
+    for (int y = top + row * cell; y < top + (row + 1) * cell; ++y) {
+      const auto first = view.light.begin() + y * view.scene.camera.width + left + column * cell;
+      std::fill_n(first, cell, 0);
+    }
+  }
+  const Curve hard = [](double light) { return light < 0.3 ? -1 : light < 0.6 ? 0.5 : 2.0; };
+  Look look;
+  look.optics.common_shift = marker::unknown_shift;
+  look.look(view, hard);
+  const marker::QuadFit& fit = look.found->markers[0].marker.fit;
+  BOOST_TEST(fit.reach == 0);
+  for (unsigned i = 0; i < 64; ++i) BOOST_TEST(std::isfinite(fit.covariance[i]));
+  for (unsigned i = 0; i < 8; ++i) BOOST_TEST(fit.covariance[9 * i] > 0);
+}
+
 /// All sides may be too near or too far by the same: in light of which nothing is known, a corner
 /// moves along its diagonal.
 BOOST_AUTO_TEST_CASE(the_covariance_has_what_sides_share) {
