@@ -56,7 +56,7 @@ KERNELS = {
     "pose_filter": ["poses_weighed", "poses_corrected", "poses_predicted", "tracks_begun"],
     "lit_fit": ["lit_crossings", "lit_level_pixels", "lit_level_reads", "lit_strips",
                 "lens_bends", "lens_angles", "lens_radii", "lens_tangents", "lit_side_fits",
-                "lit_transitions", "lit_refitted", "lit_passes", "lit_fits"],
+                "lit_transitions", "lit_refitted", "lit_passes", "lit_corners", "lit_fits"],
     "inner_edges": ["inner_pixels", "inner_strips", "inner_blurs", "inner_edges", "inner_cells"],
     "response": ["curves_made"],
     "outline": ["outline_looks", "outline_points", "outline_distances", "outline_samples",

@@ -198,8 +198,10 @@ LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions
   const LightLevels levels{fit.dark, fit.bright};
   fit.dark = dark;
   fit.bright = bright;
-  if (fit.refusal == Refusal::none)
+  if (fit.refusal == Refusal::none) {
+    work(Work::lit_corners, 1);
     widen(frame.optics->lens, frame.optics->common_shift, options, fit);
+  }
   return levels;
 }
 

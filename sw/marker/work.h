@@ -77,7 +77,8 @@
   X(poses_predicted, "a pose led on to the time of a frame")                                  \
   X(poses_weighed, "a pose of a frame held against it: the covariance's Cholesky factor")     \
   X(poses_corrected, "a pose corrected by that of the frame")                                 \
-  X(lit_fits, "a quadrilateral measured in light: set up and concluded")                      \
+  X(lit_fits, "a quadrilateral to be measured in light")                                      \
+  X(lit_corners, "four of them concluded, with their covariance")                             \
   X(lit_passes, "its sides set up, its corners met")                                          \
   X(lit_side_fits, "a side measured in light, without its crossings")                         \
   X(lit_crossings, "the edge in a strip of light found and taken into the line")              \
