@@ -10,6 +10,7 @@
 #include <marker/optics_fit.h>
 #include <marker/outline.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace calibration {
@@ -35,6 +36,8 @@ marker::QuadFit found(const marker::CameraFrame& frame, const marker::Quad& squa
   }
   marker::QuadFit fit = marker::guess_through_optics(frame, corners, {});
   fit.reach = 0.8;
+  fit.dark = 40;
+  fit.bright = 200;
   return fit;
 }
 
@@ -88,8 +91,12 @@ void measure_optics(Random& random, std::uint32_t width, std::uint32_t height) {
   measure(
       "lit_fit",
       [&] {
-        for (Candidate& c : candidates) {
-          c.levels = marker::refine_through_optics(c.frame, once(), c.fit);
+        // One of three is measured again.
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+          Candidate& c = candidates[i];
+          const marker::FoundIn place =
+              i % 3 == 2 ? marker::FoundIn::light : marker::FoundIn::levels;
+          c.levels = marker::refine_through_optics(c.frame, once(), place, c.fit);
         }
       },
       [&] {
@@ -101,9 +108,11 @@ void measure_optics(Random& random, std::uint32_t width, std::uint32_t height) {
   // own.
   marker::Optics pinhole = optics;
   pinhole.lens = {optics.lens.camera};
+  double reach = 0.8;  // sharp and blurred
   for (Candidate& c : candidates) {
     c.frame.optics = &pinhole;
-    c.fit.reach = 0.8;
+    c.fit.reach = reach;
+    reach = reach < 2.4 ? reach + 0.3 : 0.8;
     c.levels = {4000, 50000};
   }
   const marker::Dictionary& dictionary = *marker::find_dictionary("4x4_250");

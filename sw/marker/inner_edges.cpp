@@ -12,9 +12,10 @@ namespace {
 
 /// Half of what is looked at of a cell's edge, share of a cell: its corners belong to others, too.
 constexpr double half_edge = 0.25;
-/// Cells must be this wide for a transition's reach, or their neighbours blur into it (measured);
-/// below the second number nothing is left of the edge.
-constexpr double clear_share = 1.1 / 0.3, least_share = 2.2;
+/// Cells must be this wide and high for a transition's reach, or the blur of the border and the
+/// code moves the outline, too, from which edges are measured (measured). Down to the second number
+/// an edge still tells something.
+constexpr double clear_share = 2.2, least_share = 1.2;
 /// Strips reach this much farther than a transition.
 constexpr double margin = 1.1;
 /// Fewer edges are not worth a number.
@@ -26,12 +27,44 @@ constexpr double most_deviations = 2.5, deviation_of_median = 1.4826;
 constexpr double least_weight = 0.1;
 constexpr std::uint32_t most_edges = 2 * (max_code_cells + 1) * max_code_cells;
 
+/// What a blur of deviation 1 carries over a boundary, summed from z on: φ(z) − z·Q(z), at z = 0,
+/// 1/8, … 4, where it ends.
+constexpr double spill_steps = 8, spill_end = 4;
+constexpr std::array<double, 33> spill_table = {
+    0.39894, 0.33955, 0.28634, 0.23917, 0.19780, 0.16192, 0.13117, 0.10512, 0.08332,
+    0.06530, 0.05059, 0.03873, 0.02931, 0.02191, 0.01617, 0.01179, 0.00849, 0.00604,
+    0.00423, 0.00293, 0.00200, 0.00135, 0.00090, 0.00059, 0.00038, 0.00024, 0.00015,
+    0.00010, 0.00006, 0.00004, 0.00002, 0.00001, 0.00001};
+
+double spill(double z) {
+  if (z < 0) return spill(-z) - z;
+  const double place = z * spill_steps;
+  if (!(place < spill_steps * spill_end)) return 0;
+  const auto at = static_cast<std::uint32_t>(place);
+  return spill_table[at] + (place - at) * (spill_table[at + 1] - spill_table[at]);
+}
+
+/// Parts of a strip for which the blur of the cells around is found.
+constexpr std::uint32_t parts = 6;
+
 /// An edge between two cells, as the marker's plane has it: half cells from the middle.
 struct Edge {
   Point from, to;      ///< corners of the part that is looked at, cells from the top left corner
   bool is_upright;     ///< dark and bright lie beside each other
   bool dark_first;     ///< the dark cell is on the left, or above
   double from_middle;  ///< of the marker, in half sides; + if the dark cell is nearer to it
+  std::uint32_t row, column;  ///< of the cell on its left, or above
+};
+
+/// Cells and strips at an edge, deviations of a transition.
+struct Bend {
+  double wide, high;  ///< of a cell, across the edge and along it
+  double drift;       ///< of a strip along the edge against the cells', for a way across it
+};
+
+/// How far strips reach from an edge, px across it, mean.
+struct Window {
+  double dark, bright;
 };
 
 /// From a marker's plane, its sides of length 1, to where its four corners are seen (Heckbert
@@ -71,16 +104,17 @@ class InnerEdges {
       : frame_(frame), fit_(fit), levels_(levels), word_(word), cells_(cells), plane_(fit.ideal) {}
 
   InnerShift measure() {
-    look_at_all(clear_share, clear_share);
+    look_at_all(clear_share);
     const bool is_vague = edges_ < least_edges;
     if (is_vague) {
       edges_ = 0;
-      look_at_all(least_share, 0);
+      look_at_all(least_share);
     }
     work(Work::inner_cells, cells_seen_);
     work(Work::inner_edges, edges_seen_);
     work(Work::inner_pixels, pixels_);
     work(Work::inner_strips, strips_);
+    work(Work::inner_blurs, blurs_);
     if (frame_.in_dma_memory) work(Work::crossings_dma, strips_);
     InnerShift found = solve();
     found.is_vague = is_vague;
@@ -88,10 +122,9 @@ class InnerEdges {
   }
 
  private:
-  /// At edges of cells that are so wide across and along them, in reaches of a transition.
-  void look_at_all(double share, double along) {
+  /// At edges of cells that are so wide and high, in reaches of a transition.
+  void look_at_all(double share) {
     share_ = share;
-    along_ = along;
     for (std::uint32_t a = 0; a <= cells_; ++a) {
       for (std::uint32_t b = 1; b <= cells_; ++b) {
         look_at(b, a, false);
@@ -116,7 +149,7 @@ class InnerEdges {
     const Point from = below ? Point{along - half_edge, across} : Point{across, along - half_edge};
     const Point to = below ? Point{along + half_edge, across} : Point{across, along + half_edge};
     // With the dark first, bright is to the right, or below: away from the middle if q > 0.
-    measure_edge({from, to, !below, dark_first, dark_first ? q : -q});
+    measure_edge({from, to, !below, dark_first, dark_first ? q : -q, row, column});
   }
 
   /// Where the picture shows a place, cells from the top left corner.
@@ -133,7 +166,7 @@ class InnerEdges {
     if (!(length > 0 && edge.from_middle < 1 - least_weight)) return;
     const Point across{span.y / length, -span.x / length};  // towards the next cell, or from it
     const double way = dot(cell, across), reach = fit_.reach;
-    if (!(std::abs(way) > share_ * reach && length > 2 * half_edge * along_ * reach)) return;
+    if (!(std::abs(way) > share_ * reach && length > 2 * half_edge * share_ * reach)) return;
     const bool by_rows = std::abs(span.y) >= std::abs(span.x);
     const double steepness = std::abs(by_rows ? across.x : across.y);
     const double per_step = by_rows ? cell.x : cell.y;
@@ -141,6 +174,7 @@ class InnerEdges {
     const bool dark_first = (per_step > 0) == edge.dark_first;
     double sum = 0;
     std::uint32_t count = 0;
+    Window window{};
     const double begin = by_rows ? std::min(from.y, to.y) : std::min(from.x, to.x);
     const double end = by_rows ? std::max(from.y, to.y) : std::max(from.x, to.x);
     for (double line = std::ceil(begin - 0.5); line + 0.5 <= end; line += 1) {
@@ -148,19 +182,102 @@ class InnerEdges {
       const Point at = from + share * span;
       double off = 0;
       if (!measure_strip(by_rows, line, by_rows ? at.x : at.y, margin * reach / steepness,
-                         dark_first, off)) {
+                         dark_first, off, window)) {
         return;
       }
       sum += off * steepness;
       ++count;
     }
     if (count == 0 || edges_ == most_edges) return;
-    offsets_[edges_++] = {1 - edge.from_middle, sum / count};
+    window.dark *= steepness / count;
+    window.bright *= steepness / count;
+    const double blurred = blurred_by(edge, window, bend_of(span, cell, by_rows));
+    offsets_[edges_++] = {1 - edge.from_middle, sum / count - blurred};
+  }
+
+  /// How cells lie to the strips across one of their edges.
+  Bend bend_of(Point span, Point cell, bool by_rows) const {
+    const double deviation = fit_.reach / reach_in_deviations;
+    const double length = std::sqrt(dot(span, span));
+    const Point d = 1 / length * span;
+    const double across = cell.x * d.y - cell.y * d.x;
+    const double slant = std::abs(across) / std::sqrt(dot(cell, cell));
+    const double strip = by_rows ? d.x / d.y : -d.y / d.x;
+    Bend bend{};
+    bend.wide = std::abs(across) / deviation;
+    bend.high = length / (2 * half_edge) * slant / deviation;
+    bend.drift = (strip - dot(cell, d) / across) * slant * (across > 0 ? 1 : -1);
+    return bend;
+  }
+
+  /// The light of a cell, between dark and bright: what is around the marker is bright.
+  double light_of(std::uint32_t from_row, std::uint32_t from_column, std::int32_t rows,
+                  std::int32_t columns) const {
+    const std::int32_t row = static_cast<std::int32_t>(from_row) + rows;
+    const std::int32_t column = static_cast<std::int32_t>(from_column) + columns;
+    const auto last = static_cast<std::int32_t>(cells_ + 1);
+    if (row < 0 || column < 0 || row > last || column > last) return 1;
+    return is_black(static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(column)) ? 0 : 1;
+  }
+
+  /// By how much the blur of the cells around an edge moves it towards bright, px: what six parts
+  /// of a strip show, and what they would show of two cells without end.
+  double blurred_by(const Edge& edge, const Window& window, const Bend& bend) {
+    const double deviation = fit_.reach / reach_in_deviations;
+    const std::int32_t out = edge.dark_first ? 1 : -1;
+    const double drift = bend.drift * out;
+    const double dark = window.dark / deviation, bright = window.bright / deviation;
+    const double farthest = std::max(dark, bright);
+    const double beyond = (0.5 - half_edge) * bend.high - std::abs(drift) * farthest;
+    if (std::min(bend.wide - farthest, beyond) > spill_end) return 0;
+    MARKERVP_COUNT(blurs_);
+    std::array<std::array<double, 4>, 3> light;  // beside, of the edge itself, beside; dark first
+    for (std::int32_t beside = -1; beside <= 1; ++beside) {
+      for (std::int32_t step = 0; step < 4; ++step) {
+        const std::int32_t across = (edge.dark_first ? 0 : 1) + (step - 1) * out;
+        light[static_cast<std::size_t>(beside + 1)][static_cast<std::size_t>(step)] =
+            edge.is_upright ? light_of(edge.row, edge.column, beside, across)
+                            : light_of(edge.row, edge.column, across, beside);
+      }
+    }
+    const double part = (dark + bright) / parts;
+    std::array<double, 3> before = covered(-dark, bend.wide);
+    double shift = 0;
+    for (std::uint32_t i = 0; i < parts; ++i) {
+      const double from = -dark + i * part, lateral = drift * (from + part / 2);
+      const std::array<double, 3> until = covered(from + part, bend.wide);
+      const double ahead = beside(bend.high, lateral), behind = beside(bend.high, -lateral);
+      double seen = part * mixed(light, 0, ahead, behind);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        seen += (until[k] - before[k]) *
+                (mixed(light, k + 1, ahead, behind) - mixed(light, k, ahead, behind));
+      }
+      shift += until[1] - before[1] - seen;
+      before = until;
+    }
+    return deviation * shift;
+  }
+
+  /// Of boundaries a cell before the edge, there, and behind it: how much lies behind each, up to a
+  /// place, blurred.
+  static std::array<double, 3> covered(double place, double wide) {
+    return {spill(-place - wide), spill(-place), spill(wide - place)};
+  }
+
+  /// The share of the next cell along an edge in the strips of its middle, so far aside.
+  static double beside(double high, double lateral) {
+    const double half = half_edge * high, far = high / 2 - lateral;
+    return (spill(far - half) - spill(far + half)) / (2 * half);
+  }
+
+  static double mixed(const std::array<std::array<double, 4>, 3>& light, std::uint32_t step,
+                      double ahead, double behind) {
+    return behind * light[0][step] + (1 - ahead - behind) * light[1][step] + ahead * light[2][step];
   }
 
   /// How far the edge in one strip is from `middle` towards bright, px along it.
   bool measure_strip(bool by_rows, double line, double middle, double half, bool dark_first,
-                     double& off) {
+                     double& off, Window& window) {
     const Box& part = frame_.part;
     const double first = std::floor(middle - half), last = std::floor(middle + half) + 1;
     const double least = by_rows ? part.left : part.top, most = by_rows ? part.right : part.bottom;
@@ -181,6 +298,8 @@ class InnerEdges {
     const double size = end - begin;
     const double dark = (levels_.bright * size - sum) / (levels_.bright - levels_.dark);
     off = dark_first ? begin + dark - middle : middle - (end - dark);
+    window.dark += dark_first ? middle - begin : end - middle;
+    window.bright += dark_first ? end - middle : middle - begin;
     return std::abs(off) < half;
   }
 
@@ -233,8 +352,8 @@ class InnerEdges {
   const Plane plane_;
   std::array<Offset, most_edges> offsets_;
   std::uint32_t edges_ = 0;
-  std::uint32_t cells_seen_ = 0, edges_seen_ = 0, strips_ = 0, pixels_ = 0;  ///< work
-  double share_ = clear_share, along_ = clear_share;
+  std::uint32_t cells_seen_ = 0, edges_seen_ = 0, strips_ = 0, pixels_ = 0, blurs_ = 0;  ///< work
+  double share_ = clear_share;
 };
 
 }  // namespace

@@ -12,10 +12,11 @@ namespace marker {
 /// have in common, as a camera's response curve makes it.
 ///
 /// Such a shift makes a marker smaller, and its black cells, too, but its white cells larger: an
-/// edge inside is not where the outline has it, and edges with the dark on either side differ.
+/// edge inside is not where the outline has it, and edges with the dark on either side differ. So
+/// do edges into which cells around are blurred; the word says which, and by how much.
 struct InnerShift {
   std::uint32_t edges;  ///< measured; 0: too few were seen, or they are far too blurred
-  bool is_vague;        ///< cells are so blurred that neighbours show in it
+  bool is_vague;        ///< cells are so narrow that the outline is off, too
   double shift;         ///< px
   double variance;      ///< of it, px²
   double deviation;     ///< of the transition between dark and bright, px

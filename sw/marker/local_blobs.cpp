@@ -2,6 +2,8 @@
 #include <marker/work.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 
 namespace marker {
@@ -48,11 +50,15 @@ BlobList LocalBlobs::find(const GreyImage& image, std::uint32_t minimum_side) {
   count_ = lost_ = runs_ = joins_ = 0;
   before_.count = now_.count = 0;
   for (free_count_ = 0; free_count_ < most_alive; ++free_count_) free_[free_count_] = free_count_;
-  std::fill_n(columns_.begin(), image.width, 0u);
-  for (std::uint32_t row = 0; row < radius; ++row) add_row(image, row);
+  std::fill_n(columns_.begin(), image.width, std::uint16_t{0});
+  // The window's lower half of the first row, but for the row that find_runs() takes in.
+  for (std::uint32_t row = 0; row < radius; ++row) {
+    const std::uint8_t* const pixels = image.pixels + std::size_t{row} * image.width;
+    for (std::uint32_t x = 0; x < image.width; ++x) {
+      columns_[x] = static_cast<std::uint16_t>(columns_[x] + pixels[x]);
+    }
+  }
   for (std::uint32_t row = 0; row < image.height; ++row) {
-    if (row + radius < image.height) add_row(image, row + radius);
-    if (row > radius) take_row(image, row - radius - 1);
     find_runs(image, row);
     join(row);
     end_blobs(row, minimum_side);
@@ -67,35 +73,53 @@ BlobList LocalBlobs::find(const GreyImage& image, std::uint32_t minimum_side) {
   return {words_.data(), count_};
 }
 
-void LocalBlobs::add_row(const GreyImage& image, std::uint32_t row) {
-  const std::uint8_t* const pixels = image.pixels + std::size_t{row} * image.width;
-  for (std::uint32_t x = 0; x < image.width; ++x) columns_[x] += pixels[x];
-}
-
-void LocalBlobs::take_row(const GreyImage& image, std::uint32_t row) {
-  const std::uint8_t* const pixels = image.pixels + std::size_t{row} * image.width;
-  for (std::uint32_t x = 0; x < image.width; ++x) columns_[x] -= pixels[x];
-}
-
+/// One pass over three rows: the one that the window takes in, the one that leaves it, and the one
+/// in its middle, five pixels behind.
 void LocalBlobs::find_runs(const GreyImage& image, std::uint32_t row) {
-  const std::uint8_t* const pixels = image.pixels + std::size_t{row} * image.width;
-  const std::uint32_t height = window_of(row, image.height);
+  static constexpr std::array<std::uint8_t, max_image_width> no_row{};
+  const std::uint32_t width = image.width, height = window_of(row, image.height);
+  const std::uint8_t* const pixels = image.pixels + std::size_t{row} * width;
+  const std::size_t way = std::size_t{radius} * width;
+  const std::uint8_t* const taken_in = row + radius < image.height ? pixels + way : no_row.data();
+  const std::uint8_t* const left = row > radius ? pixels - way - width : no_row.data();
+  std::uint16_t* const columns = columns_.data();
+  Run* run = now_.runs.data();
   std::uint32_t sum = 0;
-  for (std::uint32_t x = 0; x < radius; ++x) sum += columns_[x];
   bool was_dark = false;
-  now_.count = 0;
-  for (std::uint32_t x = 0; x < image.width; ++x) {
-    if (x + radius < image.width) sum += columns_[x + radius];
-    if (x > radius) sum -= columns_[x - radius - 1];
-    const bool is_inside = x >= radius && x + radius < image.width;
-    const std::uint32_t pixel_count =
-        height * (is_inside ? 2 * radius + 1 : window_of(x, image.width));
+  const auto enter = [&](std::uint32_t x) {
+    const std::uint32_t column = columns[x] + taken_in[x] - left[x];
+    columns[x] = static_cast<std::uint16_t>(column);
+    sum += column;
+  };
+  const auto judge = [&](std::uint32_t x, std::uint32_t pixel_count) {
     const std::uint32_t offset = std::max(pixel_count * least_offset, sum >> relative);
     const bool is_dark = pixel_count * pixels[x] + offset <= sum;
-    if (is_dark && !was_dark) now_.runs[now_.count++] = {x, x, most_alive};
-    if (is_dark) now_.runs[now_.count - 1].last = x;
+    if (is_dark == was_dark) return;
     was_dark = is_dark;
+    if (is_dark) {
+      *run = {x, x, most_alive};
+    } else {
+      run++->last = x - 1;
+    }
+  };
+  std::uint32_t x = 0;
+  for (; x < radius; ++x) enter(x);
+  for (x = 0; x <= radius; ++x) {
+    enter(x + radius);
+    judge(x, height * (x + radius + 1));
   }
+  const std::uint32_t whole = height * (2 * radius + 1);
+  for (; x + radius < width; ++x) {
+    enter(x + radius);
+    sum -= columns[x - radius - 1];
+    judge(x, whole);
+  }
+  for (; x < width; ++x) {
+    sum -= columns[x - radius - 1];
+    judge(x, height * (width - x + radius));
+  }
+  if (was_dark) run++->last = width - 1;
+  now_.count = static_cast<std::uint32_t>(run - now_.runs.data());
 }
 
 /// Gives each run the blob of those above that it touches, over corners, too.

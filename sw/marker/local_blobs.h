@@ -45,15 +45,13 @@ class LocalBlobs {
     std::uint32_t last_row;
   };
 
-  void add_row(const GreyImage& image, std::uint32_t row);
-  void take_row(const GreyImage& image, std::uint32_t row);
   void find_runs(const GreyImage& image, std::uint32_t row);
   void join(std::uint32_t row);
   void unite(std::uint32_t kept, std::uint32_t gone);
   void extend(std::uint32_t blob, std::uint32_t point);
   void end_blobs(std::uint32_t row, std::uint32_t minimum_side);
 
-  std::array<std::uint32_t, max_image_width> columns_;  ///< sums of each over the window's rows
+  std::array<std::uint16_t, max_image_width> columns_;  ///< sums of each over the window's rows
   Row before_, now_;
   std::array<Blob, most_alive> blobs_;
   std::array<std::uint32_t, most_alive> free_;

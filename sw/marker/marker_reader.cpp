@@ -229,14 +229,14 @@ Refusal read_word(const CameraFrame& frame, const QuadFit& fit, const Quad& gues
 /// All edges of a marker of that ID, with the optics of the frame. `fit`: found, and `rotation`
 /// quarters before its own top left.
 Refusal measure(const CameraFrame& frame, const Dictionary& dictionary,
-                const DetectionOptions& options, QuadFit& fit, unsigned rotation,
+                const DetectionOptions& options, FoundIn place, QuadFit& fit, unsigned rotation,
                 DetectedMarker& marker) {
   const QuadFitOptions all = fit_options(options, dictionary.cells);
   LightLevels levels{};
   if (frame.optics == nullptr) {
     refine_quad(frame, all, fit);
   } else {
-    levels = refine_through_optics(frame, all, fit);
+    levels = refine_through_optics(frame, all, place, fit);
   }
   if (fit.refusal != Refusal::none) return fit.refusal;
   marker.fit = counted_from(fit, rotation);
@@ -288,7 +288,7 @@ Refusal read_marker(const CameraFrame& frame, const Quad& guess, const CodeBook&
   marker.part = frame.part;
   // Only what is a marker is worth all of its edges. Turned by r quarters, its own top left is the
   // r-th corner clockwise from the first.
-  return measure(frame, book.dictionary(), options, fit, match.rotation, marker);
+  return measure(frame, book.dictionary(), options, FoundIn::levels, fit, match.rotation, marker);
 }
 
 Refusal read_narrow_marker(const CameraFrame& frame, const Quad& corners, const CodeBook& book,
@@ -316,7 +316,7 @@ bool measure_again(const CameraFrame& frame, const Dictionary& dictionary,
   CameraFrame near = frame;
   near.part = marker.part;
   QuadFit fit = marker.fit;
-  return measure(near, dictionary, options, fit, 0, marker) == Refusal::none;
+  return measure(near, dictionary, options, FoundIn::light, fit, 0, marker) == Refusal::none;
 }
 
 Refusal detect_marker(const CameraFrame& frame, const Extremes& blob, const CodeBook& book,

@@ -28,9 +28,12 @@ struct LightLevels {
   double dark, bright;
 };
 
+/// Whether a fit's corners are where grey levels have them, or light.
+enum class FoundIn : std::uint32_t { levels, light };
+
 /// The covariance has what all sides share: `Optics::common_shift`. `dark` and `bright` of the fit
 /// stay what was found before.
 LightLevels refine_through_optics(const CameraFrame& frame, const QuadFitOptions& options,
-                                  QuadFit& fit);
+                                  FoundIn place, QuadFit& fit);
 
 }  // namespace marker

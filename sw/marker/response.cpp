@@ -27,12 +27,13 @@ constexpr double settled_weight = 1 / (0.01 * 0.01);
 constexpr std::uint32_t most_looks = 4;
 /// So much of a change of the logarithm is worth another look: less than 0.01 of a transition.
 constexpr double worth_a_look = 0.015;
-/// Markers whose cells are blurred into each other say too low an exponent, by more the more their
-/// edges differ: up to the first number if their deviation is far above the second; and what is
-/// left is off by the third (measured). They count where no other has been seen, and only if they
-/// say clearly that there is a curve.
-constexpr double vague_bias = 0.16, vague_bias_deviation = 0.006, vague_variance = 0.1 * 0.1;
+/// Markers whose cells are narrow for their blur are off by so much (measured). They count where no
+/// other has been seen, and only if they say clearly that there is a curve.
+constexpr double vague_variance = 0.1 * 0.1;
 constexpr double clear_logarithm = 0.3, clear_deviations = 2;
+/// An exponent that is not as far from 1 is taken for 1: levels of most machine-vision cameras are
+/// light (decision).
+constexpr double told_deviations = 2;
 /// A marker that is farther off than this, in transitions, is not one of this curve: a reflection,
 /// or a shadow.
 constexpr double most_shift = 0.8;
@@ -103,8 +104,7 @@ bool ResponseFinder::end_look() {
   ++looks_;
   if (markers_ == 0 && before_weight_ == 0 && vague_weight_ > 0) {
     const double deviation = 1 / std::sqrt(vague_weight_);
-    const double logarithm =
-        vague_ / vague_weight_ + vague_bias * deviation / (deviation + vague_bias_deviation);
+    const double logarithm = vague_ / vague_weight_;
     if (logarithm > clear_logarithm + clear_deviations * deviation) {
       sum_weight_ = 1 / (deviation * deviation + vague_variance);
       sum_ = sum_weight_ * logarithm;
@@ -114,9 +114,11 @@ bool ResponseFinder::end_look() {
   weight_ = before_weight_ + sum_weight_;
   logarithm_ =
       std::clamp((before_weight_ * before_ + sum_) / weight_, least_logarithm, most_logarithm);
-  const bool is_off = std::abs(logarithm_ - table_logarithm_) > worth_a_look;
+  const bool is_told = std::abs(logarithm_) * std::sqrt(weight_) > told_deviations;
+  const double best = is_told ? logarithm_ : 0;
+  const bool is_off = std::abs(best - table_logarithm_) > worth_a_look;
   if (is_off) {
-    make_table(logarithm_);
+    make_table(best);
   } else if (markers_ > 0) {
     note_scatter();
   }

@@ -77,13 +77,15 @@
   X(poses_predicted, "a pose led on to the time of a frame")                                  \
   X(poses_weighed, "a pose of a frame held against it: the covariance's Cholesky factor")     \
   X(poses_corrected, "a pose corrected by that of the frame")                                 \
-  X(lit_fits, "a quadrilateral measured in light: set up and concluded")                      \
+  X(lit_fits, "a quadrilateral to be measured in light")                                      \
+  X(lit_corners, "four of them concluded, with their covariance")                             \
   X(lit_passes, "its sides set up, its corners met")                                          \
   X(lit_side_fits, "a side measured in light, without its crossings")                         \
   X(lit_crossings, "the edge in a strip of light found and taken into the line")              \
   X(lit_strips, "a strip of light laid across a side")                                        \
   X(lit_level_reads, "such a strip asked for the light beside its edge")                      \
   X(lit_level_pixels, "a pixel beyond a transition read for it")                              \
+  X(lit_refitted, "a crossing in light taken into a line once more")                          \
   X(lit_transitions, "a crossing in light whose blur is measured")                            \
   X(lens_bends, "a point led once through a polynomial lens of any model")                    \
   X(lens_angles, "the angle of a ray, for a fisheye lens")                                    \
@@ -92,6 +94,7 @@
   X(inner_cells, "two neighbouring cells of a marker: an edge between them?")                 \
   X(inner_edges, "such an edge laid out in the picture")                                      \
   X(inner_strips, "a strip across one of them")                                               \
+  X(inner_blurs, "such an edge freed from the blur of the cells around")                      \
   X(inner_pixels, "a pixel of such a strip")                                                  \
   X(curves_made, "a response curve's table filled")                                           \
   X(outlines, "a blob's outline looked for, set up and concluded")                            \
