@@ -48,7 +48,9 @@ std::int32_t reach(std::uint32_t point, std::uint32_t which) {
 BlobList LocalBlobs::find(const GreyImage& image, std::uint32_t minimum_side) {
   const FunctionScope scope(Function::blob_detection);
   count_ = lost_ = runs_ = joins_ = 0;
-  before_.count = now_.count = 0;
+  before_ = &rows_[0];
+  now_ = &rows_[1];
+  before_->count = now_->count = 0;
   for (free_count_ = 0; free_count_ < most_alive; ++free_count_) free_[free_count_] = free_count_;
   std::fill_n(columns_.begin(), image.width, std::uint16_t{0});
   // The window's lower half of the first row, but for the row that find_runs() takes in.
@@ -83,7 +85,7 @@ void LocalBlobs::find_runs(const GreyImage& image, std::uint32_t row) {
   const std::uint8_t* const taken_in = row + radius < image.height ? pixels + way : no_row.data();
   const std::uint8_t* const left = row > radius ? pixels - way - width : no_row.data();
   std::uint16_t* const columns = columns_.data();
-  Run* run = now_.runs.data();
+  Run* run = now_->runs.data();
   std::uint32_t sum = 0;
   bool was_dark = false;
   const auto enter = [&](std::uint32_t x) {
@@ -119,18 +121,19 @@ void LocalBlobs::find_runs(const GreyImage& image, std::uint32_t row) {
     judge(x, height * (width - x + radius));
   }
   if (was_dark) run++->last = width - 1;
-  now_.count = static_cast<std::uint32_t>(run - now_.runs.data());
+  now_->count = static_cast<std::uint32_t>(run - now_->runs.data());
 }
 
 /// Gives each run the blob of those above that it touches, over corners, too.
 void LocalBlobs::join(std::uint32_t row) {
-  MARKERVP_ADD(runs_, now_.count);
+  MARKERVP_ADD(runs_, now_->count);
   std::uint32_t above = 0;
-  for (std::uint32_t i = 0; i < now_.count; ++i) {
-    Run& run = now_.runs[i];
-    while (above < before_.count && before_.runs[above].last + 1 < run.begin) ++above;
-    for (std::uint32_t k = above; k < before_.count && before_.runs[k].begin <= run.last + 1; ++k) {
-      const std::uint32_t blob = before_.runs[k].blob;
+  for (std::uint32_t i = 0; i < now_->count; ++i) {
+    Run& run = now_->runs[i];
+    while (above < before_->count && before_->runs[above].last + 1 < run.begin) ++above;
+    for (std::uint32_t k = above; k < before_->count && before_->runs[k].begin <= run.last + 1;
+         ++k) {
+      const std::uint32_t blob = before_->runs[k].blob;
       if (run.blob == most_alive) {
         run.blob = blob;
       } else if (run.blob != blob) {
@@ -152,11 +155,11 @@ void LocalBlobs::join(std::uint32_t row) {
 void LocalBlobs::unite(std::uint32_t kept, std::uint32_t gone) {
   MARKERVP_COUNT(joins_);
   for (const std::uint32_t point : blobs_[gone].extremes) extend(kept, point);
-  for (std::uint32_t i = 0; i < before_.count; ++i) {
-    if (before_.runs[i].blob == gone) before_.runs[i].blob = kept;
+  for (std::uint32_t i = 0; i < before_->count; ++i) {
+    if (before_->runs[i].blob == gone) before_->runs[i].blob = kept;
   }
-  for (std::uint32_t i = 0; i < now_.count; ++i) {
-    if (now_.runs[i].blob == gone) now_.runs[i].blob = kept;
+  for (std::uint32_t i = 0; i < now_->count; ++i) {
+    if (now_->runs[i].blob == gone) now_->runs[i].blob = kept;
   }
   free_[free_count_++] = gone;
 }
@@ -171,8 +174,8 @@ void LocalBlobs::extend(std::uint32_t blob, std::uint32_t point) {
 
 /// Of the blobs of the row above those that this row does not continue.
 void LocalBlobs::end_blobs(std::uint32_t row, std::uint32_t minimum_side) {
-  for (std::uint32_t i = 0; i < before_.count; ++i) {
-    const std::uint32_t which = before_.runs[i].blob;
+  for (std::uint32_t i = 0; i < before_->count; ++i) {
+    const std::uint32_t which = before_->runs[i].blob;
     Blob& blob = blobs_[which];
     if (blob.last_row + 1 != row) continue;
     blob.last_row = row;  // once, whatever runs it has

@@ -52,7 +52,8 @@ class LocalBlobs {
   void end_blobs(std::uint32_t row, std::uint32_t minimum_side);
 
   std::array<std::uint16_t, max_image_width> columns_;  ///< sums of each over the window's rows
-  Row before_, now_;
+  std::array<Row, 2> rows_;
+  Row *before_, *now_;  ///< the one above, and the present one
   std::array<Blob, most_alive> blobs_;
   std::array<std::uint32_t, most_alive> free_;
   std::uint32_t free_count_;
