@@ -3,6 +3,7 @@
 #include <xil_printf.h>
 
 #include <cstdarg>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -147,7 +148,10 @@ void xil_vprintf(const char8* ctrl1, va_list arguments) {
         if (*(format + 1) == '*' && *(format + 2) == 's') {
           field.most = va_arg(arguments, unsigned);
           const char* text = va_arg(arguments, const char*);
-          put_padded(out, field, text, strnlen(text, field.most));
+          const void* const end = std::memchr(text, 0, field.most);
+          put_padded(
+              out, field, text,
+              end ? static_cast<std::size_t>(static_cast<const char*>(end) - text) : field.most);
           format += 2;
         }
         break;
