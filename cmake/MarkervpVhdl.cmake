@@ -1,9 +1,11 @@
 # VHDL as Verilog, by GHDL: for markervp_add_rtl() (MarkervpRtl.cmake), and as a script for `markervp rtl synth`:
-#   cmake -DNAME=… -DTOP=… -DFILE=… -DGENERICS=A=1;… -DOPTIONS=… -DSOURCES=a.vhd;… -P MarkervpVhdl.cmake
+#   cmake -DNAME=… -DTOP=… -DFILE=… -DGENERICS=A=1;… -DOPTIONS=… -DSOURCES=a.vhd;… -DRTL_INCLUDE_DIRS=… -P MarkervpVhdl.cmake
 if(CMAKE_SCRIPT_MODE_FILE)
   cmake_minimum_required(VERSION 3.25)
 endif()
-include("${CMAKE_CURRENT_LIST_DIR}/MarkervpUnisim.cmake" OPTIONAL)  # in markervp it is a part of this text
+# In markervp these are parts of this text.
+include("${CMAKE_CURRENT_LIST_DIR}/MarkervpUnisim.cmake" OPTIONAL)
+include("${CMAKE_CURRENT_LIST_DIR}/MarkervpRtlFiles.cmake" OPTIONAL)
 
 # VHDL into one file of Verilog, the generics set. The sources come in any order.
 function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS OPTIONS)
@@ -11,6 +13,7 @@ function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS OPTIONS)
   if(NOT GHDL_PROGRAM)
     markervp_vhdl_refuse("" "VHDL needs GHDL; install it with 'apt-get install ghdl'")
   endif()
+  markervp_vhdl_provide_files("${FILE}.files" ${ARGN})
   markervp_vhdl_add_unisim(all ${ARGN})
   markervp_vhdl_set_reals(given GENERICS ${all})
   # VHDL-2008 first; older sources use its new keywords as names.
@@ -30,7 +33,11 @@ function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS OPTIONS)
   if(errors)
     set(advice "mend what it says above")
     string(REGEX REPLACE "[^\n]*:[0-9]+:[0-9]+:warning:[^\n]*" "" first "${first}")
-    if(first MATCHES "GHDL Bug occurred")
+    if(first MATCHES "cannot open file: ?([^\n]*)")
+      set(advice "there is no file '${CMAKE_MATCH_1}' beside the source, nor below the folders of the sources and INCLUDE_DIRS: its memory would "
+        "have no words")
+      string(CONCAT advice ${advice})
+    elseif(first MATCHES "GHDL Bug occurred")
       set(advice "a fault of GHDL itself; write it in another way, or give the Verilog")
     elseif(first MATCHES "cannot find resource library \"([^\"]+)\"")
       set(advice "add the sources of the library '${CMAKE_MATCH_1}'; a vendor's (unisim, xpm, xilinxcorelib) cannot be synthesised here")
@@ -55,6 +62,40 @@ function(markervp_rtl_from_vhdl NAME TOP FILE GENERICS OPTIONS)
     "always @* assert (\\2) else $error(\"VHDL assertion at \\1\");" text "${text}")
   # The types of VHDL have seen to widths; GHDL writes initial values and multiplexers with delayed assignments.
   file(WRITE "${FILE}" "/* verilator lint_off WIDTH */\n/* verilator lint_off INITIALDLY */\n/* verilator lint_off COMBDLY */\n${text}")
+endfunction()
+
+# Where GHDL looks first: in FOLDER are the files that the sources name, at those names.
+function(markervp_vhdl_provide_files FOLDER)
+  file(REMOVE_RECURSE "${FOLDER}")
+  file(MAKE_DIRECTORY "${FOLDER}")
+  set(texts "${GENERICS}")
+  list(TRANSFORM texts REPLACE "^[^=]*=" "")
+  markervp_rtl_folders("${ARGN}" "${RTL_INCLUDE_DIRS}" folders)
+  markervp_rtl_named_files("${ARGN}" "${folders}" "${texts}" named)
+  foreach(entry IN LISTS named)
+    string(REPLACE "|" ";" entry "${entry}")
+    list(POP_FRONT entry name source)
+    get_filename_component(copy "${name}" ABSOLUTE BASE_DIR "${FOLDER}")
+    list(LENGTH entry count)
+    if(count EQUAL 1 AND EXISTS "${copy}" AND NOT IS_ABSOLUTE "${name}")
+      file(SHA256 "${copy}" known)
+      file(SHA256 "${entry}" hash)
+      if(NOT known STREQUAL hash)
+        set(count 2)
+      endif()
+    endif()
+    if(count GREATER 1)
+      list(JOIN entry "' or '" entry)
+      markervp_vhdl_refuse("" "${source}: '${name}' may be '${entry}' or another file of that name, which differ: give each a name of its own")
+    endif()
+    # What is above the source, `../x.dat`, GHDL finds from the source on.
+    string(FIND "${copy}" "${FOLDER}/" begin)
+    if(begin EQUAL 0 AND NOT IS_ABSOLUTE "${name}")
+      get_filename_component(place "${copy}" DIRECTORY)
+      file(MAKE_DIRECTORY "${place}")
+      file(COPY_FILE "${entry}" "${copy}")
+    endif()
+  endforeach()
 endfunction()
 
 # GHDL 2.0 writes constants of more than 32 bits as text, "00…01", which is another number: eight bits for each character.
@@ -232,7 +273,7 @@ function(markervp_vhdl_synthesise STANDARD SOURCES ERRORS)
   foreach(language verilog vhdl)
     if(NOT errors)
       execute_process(COMMAND "${GHDL_PROGRAM}" --synth ${options} --work=${work} --out=${language} ${generics} ${TOP}
-        RESULT_VARIABLE result OUTPUT_FILE "${FILE}.${language}" ERROR_VARIABLE said)
+        WORKING_DIRECTORY "${FILE}.files" RESULT_VARIABLE result OUTPUT_FILE "${FILE}.${language}" ERROR_VARIABLE said)
       if(NOT result EQUAL 0)
         set(errors "${said}")
       endif()

@@ -3,6 +3,7 @@
 #include <fpga/synthesis/vhdl.h>
 
 #include <boost/test/unit_test.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -312,6 +313,18 @@ BOOST_AUTO_TEST_CASE(a_top_that_is_not_there_or_twice_is_refused) {
   check_says(refusal("conter"), {"no module or entity 'conter'", "name Counter"});
   write("counter.sv", "module counter(input logic clk); endmodule\n");
   check_says(refusal("counter"), {"counter.vhd", "a module of", "counter.sv"});
+}
+
+BOOST_AUTO_TEST_CASE(a_memory_is_read_from_a_file_of_text) {
+  std::string text = kit::read_file(MARKERVP_SOURCE "/tests/models/axi/rtl/text_rom.vhd");
+  write("text_rom.vhd", text);
+  check_says(refusal("text_rom"), {"text_rom.vhd:15:", "cannot open file: ./bits.mem",
+                                   "there is no file './bits.mem' beside the source"});
+  std::filesystem::create_directory(folder / "data");
+  write("data/bits.mem", "00000000\n00000001\n00000010\n00000011\n");
+  const Figures made = figures("text_rom");
+  BOOST_TEST(made.netlist.cells.ff > 2u);
+  BOOST_TEST(made.sources.count("bits.mem") == 1u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
