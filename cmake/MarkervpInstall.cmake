@@ -147,6 +147,7 @@ install(FILES
   cmake/MarkervpHeap.cpp
   cmake/MarkervpRtl.cpp.in
   cmake/MarkervpRtlCells.cmake
+  cmake/MarkervpRtlFiles.cmake
   cmake/MarkervpRtlRefused.cmake
   cmake/MarkervpVerilated.cmake
   cmake/MarkervpUnisim.cmake

@@ -2,6 +2,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVerilated.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpVhdl.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpRtlRefused.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/MarkervpRtlCells.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/MarkervpRtlFiles.cmake")
 
 # markervp_add_rtl(NAME [IP ip] TOP module SOURCES a.sv b.vhd… [PARAMETERS WIDTH=640…] [NO_ASSERTIONS] [COVERAGE] [FIGURES] [STUB_IF_REFUSED]
 #   [INCLUDE_DIRS dir…] [DEFINES NAME[=VALUE]…] [FILELIST file] [WAIVERS file.vlt…] [VERILATOR_OPTIONS o…] [GHDL_OPTIONS o…]
@@ -69,6 +70,11 @@ function(markervp_add_rtl NAME)
     set(assert --noassert)
   endif()
   markervp_rtl_hashes("${folder}/top.xml" hashes files ${vhdl})
+  set(texts ${files})
+  list(FILTER texts INCLUDE REGEX "^/.*\\.(v|sv|vh|svh|vhd|vhdl)$")
+  set(glued "${hashes}")
+  markervp_rtl_files(${NAME} "${folder}" "${texts}" contents table glued data_files)
+  markervp_rtl_return_if_refused(${NAME})
 
   add_library(${NAME} MODULE "${folder}/glue.cpp")
   target_include_directories(${NAME} PRIVATE "${markervp_rtl_include}")
@@ -100,9 +106,10 @@ function(markervp_add_rtl NAME)
       list(REMOVE_DUPLICATES synthesised)
       list(FILTER synthesised INCLUDE REGEX "\\.(v|sv)$")
     endif()
-    markervp_rtl_figures(${NAME} "${folder}" "${synthesised}")
+    markervp_rtl_figures(${NAME} "${folder}" "${synthesised}" ${data_files})
   endif()
   # The glue has these functions (MarkervpRtl.cpp.in).
+  target_link_options(${NAME} PRIVATE "LINKER:--wrap=fopen")
   target_compile_definitions(${NAME} PRIVATE VL_USER_FINISH VL_USER_STOP VL_USER_FATAL VL_USER_WARN VL_PRINTF=markervp_rtl_print)
   target_compile_options(${NAME} PRIVATE -include pl/common/rtl_interface.h)
   target_compile_options(${NAME} PRIVATE $<IF:$<CONFIG:Debug>,-O0,-O3> -w)
@@ -157,7 +164,7 @@ endif()
   add_custom_command(OUTPUT "${FOLDER}/figures.stamp"
     COMMAND "${CMAKE_COMMAND}" -P "${FOLDER}/figures.cmake"
     COMMAND "${CMAKE_COMMAND}" -E touch "${FOLDER}/figures.stamp"
-    DEPENDS "${FOLDER}/figures.cmake" ${FILES} COMMENT "Synthesising ${NAME} for its figures" VERBATIM)
+    DEPENDS "${FOLDER}/figures.cmake" ${FILES} ${ARGN} COMMENT "Synthesising ${NAME} for its figures" VERBATIM)
   add_custom_target(${NAME}_figures ALL DEPENDS "${FOLDER}/figures.stamp")
 endfunction()
 

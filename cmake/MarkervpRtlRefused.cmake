@@ -39,8 +39,9 @@ function(markervp_rtl_translate NAME FILE)
     return()
   endif()
   file(REMOVE "${FILE}.refused")
+  markervp_rtl_folders("" "${RTL_INCLUDE_DIRS}" include_dirs)
   execute_process(COMMAND "${CMAKE_COMMAND}" "-DNAME=markervp_add_rtl(${NAME})" "-DTOP=${RTL_TOP}" "-DFILE=${FILE}"
-      "-DGENERICS=${RTL_PARAMETERS}" "-DOPTIONS=${RTL_GHDL_OPTIONS}" "-DSOURCES=${ARGN}" -P "${markervp_rtl_vhdl}"
+      "-DGENERICS=${RTL_PARAMETERS}" "-DOPTIONS=${RTL_GHDL_OPTIONS}" "-DSOURCES=${ARGN}" "-DRTL_INCLUDE_DIRS=${include_dirs}" -P "${markervp_rtl_vhdl}"
     RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(result EQUAL 0)
     return()

@@ -35,7 +35,7 @@ function(markervp_vhdl_restore_high_words STANDARD TEXT VHDL)
     set(left ${widths})
   endif()
   if(NOT same)
-    list(JOIN places "; " places)
+    list(JOIN places ", " places)
     markervp_vhdl_refuse("" "${places}: GHDL 2.0 takes such a constant for 0, for its lower words are 0, and what it computes from it cannot be "
       "restored: put it together from a signal and constants of 32 bits, or give the Verilog")
   endif()

@@ -246,6 +246,17 @@ BOOST_FIXTURE_TEST_CASE(a_program_that_does_not_wait, Caches) {
   BOOST_TEST(errors(all, 5, {"--set", "ps.cache_guard_steps=0"}) == "");
 }
 
+// The run ends with the program: what an engine was doing is said, and is no warning.
+BOOST_FIXTURE_TEST_CASE(an_engine_that_runs_when_the_program_ends, Caches) {
+  constexpr int left_sending = 32;
+  const std::string said = errors(left_sending, 0, {"--strict"});
+  BOOST_TEST(contains(said,
+                      "pl.axi_dma_0: MM2S was sending 128 bytes when the program ended, and the "
+                      "run with it: on the chip it runs on"),
+             said);
+  BOOST_TEST(!contains(said, "warning"), said);
+}
+
 // Races are reported once, with both places; what both cores wait for, by name.
 BOOST_AUTO_TEST_CASE(two_cores_err_together) {
   const auto errors = [this](int mistake, int exit_code, const Words& more = {}) {

@@ -23,6 +23,14 @@ constexpr std::uint32_t reset_pin = 1;  // listener id; 0: a stream
 
 }  // namespace
 
+// What S2MM was ordered to write is in its port's orders.
+std::string AxiDma::under_way() const {
+  if (mm2s_ && mm2s_->is_moving()) return "MM2S was sending " + mm2s_->what_moves();
+  if (s2mm_ && s2mm_->is_moving() && s2mm_->cyclic())
+    return "S2MM was writing " + s2mm_->what_moves();
+  return {};
+}
+
 AxiDma::AxiDma(sc_core::sc_module_name name, vp::Clock& aclk, const AxiDmaBuild& build)
     : Clocked(name, aclk),
       Ip(&aclk),

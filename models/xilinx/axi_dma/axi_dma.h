@@ -16,6 +16,7 @@
 #include <vp/signal.h>
 #include <xilinx/axi_dma/descriptor_ring.h>
 #include <xilinx/axi_dma/dma_channel.h>
+#include <xilinx/axi_dma/engine.h>
 #include <xilinx/axi_dma/mm2s_channel.h>
 #include <xilinx/axi_dma/s2mm_channel.h>
 
@@ -39,7 +40,7 @@ struct AxiDmaBuild {
 ///
 ///   platform: dma.mm2s().m_axi.link.socket.bind(...); dma.mm2s().m_axis(link);
 ///   dma.s2mm().s_axis(link); with include_sg dma.scatter_gather().m_axi.link.socket.bind(...);
-class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
+class AxiDma : public vp::Clocked, public vp::Ip, public Engine, private DmaChannel::Core {
  public:
   /// Throws vp::InputError if neither channel is built, a burst is no power of two, or a width is
   /// none of the core's.
@@ -80,6 +81,8 @@ class AxiDma : public vp::Clocked, public vp::Ip, private DmaChannel::Core {
 
   /// Of the build.
   const DmaWidths mm2s_widths, s2mm_widths;
+
+  std::string under_way() const override;
 
   /// Beats of the streams moved between memory and the core so far.
   std::uint64_t beats() const;

@@ -181,6 +181,12 @@ void DmaChannel::start(std::uint64_t cycle) {
   begin({aligned(sampled_address_), requested_bytes_, true}, cycle);
 }
 
+std::string DmaChannel::what_moves() const {
+  if (cyclic()) return "a ring of descriptors that has no end";
+  if (uses_descriptors()) return "what descriptors say";
+  return std::to_string(requested_bytes_) + " bytes";
+}
+
 std::uint32_t DmaChannel::aligned(std::uint32_t address) const {
   if (address % alignment_ == 0) return address;
   core_.warn("/markervp/axi_dma/unaligned",

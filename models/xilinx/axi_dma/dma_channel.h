@@ -145,6 +145,12 @@ class DmaChannel {
   bool rests() const { return at_rest() && !counts_at_rest_; }
   /// One clock edge. Returns the next one that the channel needs (signals may wake it earlier).
   std::uint64_t edge(std::uint64_t cycle);
+  /// A transfer was accepted, and its end does not show yet at the edge of now.
+  bool is_moving() const { return phase_ != Phase::idle && !(finishing() && now() >= finish_at_); }
+  /// "64 bytes", or a ring of descriptors.
+  std::string what_moves() const;
+  /// Its descriptors go round without an end.
+  bool cyclic() const { return dmacr.any(axi_dma::dmacr::Cyclic_BD_Enable); }
   /// The end of the transfer is known and not shown yet.
   bool finishing() const { return finish_at_ != never; }
   /// Shows an end up to edge `cycle`. An end that raises an interrupt is shown on the edge of the
@@ -235,7 +241,6 @@ class DmaChannel {
            (!ring_ || ring_rests());
   }
   bool ring_rests() const;
-  bool cyclic() const { return dmacr.any(axi_dma::dmacr::Cyclic_BD_Enable); }
   void order(const Segment& segment);
   void run_ring(std::uint64_t cycle);
   void pause_ring(std::uint64_t cycle);

@@ -205,6 +205,14 @@ void VdmaChannel::reset() {
   update();
 }
 
+std::string VdmaChannel::under_way() const {
+  if (!armed_) return {};
+  const bool sends = std::string(title_) == "MM2S";
+  return std::string(title_) + " was " + (sends ? "sending" : "writing") + " frames of " +
+         std::to_string(vsize_.value()) + " lines of " + std::to_string(hsize_.value()) +
+         " bytes, " + std::to_string(frames.get()) + " of them so far,";
+}
+
 std::uint32_t VdmaChannel::store_behind(std::uint32_t store, std::uint32_t frames) const {
   return (store + frame_stores_ - frames % frame_stores_) % frame_stores_;
 }

@@ -6,9 +6,11 @@
 #include <vp/parameter.h>
 #include <vp/register_bank.h>
 #include <vp/signal.h>
+#include <xilinx/axi_dma/engine.h>
 #include <xilinx/axi_dma/memory_port.h>
 
 #include <cstdint>
+#include <string>
 #include <systemc>
 #include <vector>
 
@@ -29,7 +31,7 @@ struct VdmaChannelBuild {
 };
 
 /// What both channels do: registers, frame stores, the count of frames, errors and the interrupt.
-class VdmaChannel : public vp::Clocked {
+class VdmaChannel : public vp::Clocked, public Engine {
  public:
   /// The core has a bus between both channels.
   void lock_to(const VdmaChannel& other);
@@ -44,6 +46,7 @@ class VdmaChannel : public vp::Clocked {
   bool has_begun() const { return begun_; }
   /// The store of the last complete frame; -1: none.
   std::int64_t newest() const { return newest_; }
+  std::string under_way() const override;
   /// A hardware reset of the core, or a soft reset of the channel.
   void reset();
 

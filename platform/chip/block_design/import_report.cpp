@@ -1,11 +1,13 @@
 #include <chip/block_design/import_design.h>
 
 #include <chip/handoff/netlist.h>
+#include <gic_registers.h>
 #include <vp/text.h>
 #include <vp/unit.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace platform::block_design {
 
@@ -55,6 +57,30 @@ std::string addresses_table(const Handoff& handoff) {
   return "\n## Addresses\n\n| Master | Slave | Base | Size |\n|---|---|---|---|\n" + rows;
 }
 
+/// A line that waits for an interrupt and has none: open, or a constant.
+std::string open_row(const std::string& number) {
+  return "| " + number + " | nothing: open or a constant, so it never comes |\n";
+}
+
+/// Outputs for interrupts that nothing reads.
+std::string unread_interrupts(const Handoff& handoff) {
+  std::set<std::string> read;
+  for (const Module& module : handoff.modules)
+    for (const handoff::Port& port : module.ports)
+      if (port.direction != 'O') read.insert(port.signal);
+  for (const handoff::Port& port : handoff.ports)
+    if (port.direction != 'I') read.insert(port.signal);
+  std::string names;
+  for (const Module& module : handoff.modules) {
+    for (const handoff::Port& port : module.ports) {
+      if (&module == &handoff.ps() || port.direction != 'O' || port.kind != "INTERRUPT") continue;
+      if (port.signal.empty() || read.count(port.signal) == 0)
+        names += (names.empty() ? "`" : ", `") + module.instance + "." + port.name + "`";
+    }
+  }
+  return names.empty() ? "" : "\nThese reach nothing, so programs poll them: " + names + ".\n";
+}
+
 std::string interrupts_table(const Handoff& handoff, const Netlist& nets) {
   std::string rows;
   std::vector<Netlist::Interrupt> interrupts = nets.interrupts();
@@ -68,13 +94,32 @@ std::string interrupts_table(const Handoff& handoff, const Netlist& nets) {
             source.pin.port->name +
             (source.pin.port->width > 1 ? "[" + std::to_string(source.bit) + "]" : "") + "` |\n";
   }
-  const bool has_lines = handoff.ps().port("IRQ_F2P") != nullptr;
+  const handoff::Port* const lines = handoff.ps().port("IRQ_F2P");
+  const std::string unread = unread_interrupts(handoff);
   if (rows.empty()) {
     return std::string("\n## Interrupts\n\n") +
-           (has_lines ? "IRQ_F2P is there, and nothing drives it: programs poll.\n"
-                      : "None: programs poll.\n");
+           (lines ? "IRQ_F2P is there, and nothing drives it: programs poll.\n"
+                  : "None: programs poll.\n") +
+           unread;
   }
-  return "\n## Interrupts\n\n| Number | Source |\n|---|---|\n" + rows;
+  const auto has_source = [&interrupts](std::uint32_t id, const Module* controller) {
+    return std::any_of(interrupts.begin(), interrupts.end(), [&](const auto& interrupt) {
+      return interrupt.id == id && interrupt.controller == controller;
+    });
+  };
+  for (unsigned bit = 0; lines && bit < lines->width && bit < gic::irq_f2p_bits; ++bit) {
+    if (!has_source(gic::irq_f2p_id(bit), nullptr))
+      rows += open_row(std::to_string(gic::irq_f2p_id(bit)));
+  }
+  for (const Module& module : handoff.modules) {
+    const bool is_controller = module.is_vendors() && module.ip() == "axi_intc";
+    const handoff::Port* const inputs = is_controller ? module.port("intr") : nullptr;
+    for (unsigned bit = 0; inputs && bit < inputs->width; ++bit) {
+      if (!has_source(bit, &module))
+        rows += open_row(std::to_string(bit) + " of `" + module.instance + "`");
+    }
+  }
+  return "\n## Interrupts\n\n| Number | Source |\n|---|---|\n" + rows + unread;
 }
 
 std::string clocks_table(const Handoff& handoff) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace platform::handoff {
 
@@ -82,6 +83,9 @@ Handoff read_archive(const Archive& archive, const std::string& file, const std:
   std::vector<std::string> choices;
   choices.reserve(names.size());
   for (const std::string& name : names) choices.push_back(stem(name));
+  // Two may have the same name, in different folders of the archive.
+  if (std::set<std::string>(choices.begin(), choices.end()).size() < choices.size())
+    choices = names;
   if (!design.empty()) {
     const auto found = std::find(choices.begin(), choices.end(), design);
     if (found == choices.end()) {

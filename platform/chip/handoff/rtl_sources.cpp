@@ -208,6 +208,7 @@ RtlSources RtlFinder::find(const Module& module) const {
   RtlSources sources = look(module);
   add_primitives(sources);
   add_includes(sources);
+  add_data(sources);
   for (const Port& port : module.ports) {
     if (port.kind == "rst" && port.direction == 'I' && port.active_high)
       sources.interfaces.push_back(port.name + ": reset high");
@@ -301,6 +302,32 @@ void RtlFinder::add_includes(RtlSources& sources) const {
         sources.files.clear();
         return;
       }
+    }
+  }
+}
+
+// What $readmemh, $readmemb and textio read is a file of the project, wherever that has it. The
+// build looks below these folders.
+void RtlFinder::add_data(RtlSources& sources) const {
+  static const std::regex call(R"(\$readmem|\$fopen|textio)", std::regex::icase),
+      named(R"re("([A-Za-z0-9_./: +-]+\.[A-Za-z0-9_]+)")re");
+  std::string all;
+  for (const std::string& file : sources.files) all += text_of(file) + "\n";
+  if (!std::regex_search(all, call)) return;
+  std::vector<std::string>& folders = sources.include_dirs;
+  for (std::sregex_iterator at(all.begin(), all.end(), named), end; at != end; ++at) {
+    const fs::path name((*at)[1].str());
+    const auto known = by_filename_.find(name.filename().string());
+    if (known == by_filename_.end() || is_verilog(name)) continue;
+    for (const std::string& file : known->second) {
+      const std::string folder = file.substr(0, file.rfind('/') + 1);
+      const bool is_below = std::any_of(sources.files.begin(), sources.files.end(),
+                                        [&folder](const std::string& source) {
+                                          const std::size_t size = source.rfind('/') + 1;
+                                          return folder.compare(0, size, source, 0, size) == 0;
+                                        });
+      if (!is_below && std::find(folders.begin(), folders.end(), folder) == folders.end())
+        folders.push_back(folder);
     }
   }
 }

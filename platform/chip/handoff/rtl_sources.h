@@ -14,9 +14,10 @@ struct RtlSources {
   std::vector<std::string> files;  ///< absolute; empty: none were found
   std::vector<std::string> parameters =
       {};  ///< that the top declares and the design sets: "WIDTH=8"
-  std::vector<std::string> interfaces = {};    ///< what the design says of pins: "rst: reset high"
-  std::vector<std::string> include_dirs = {};  ///< where the files that they include lie
-  std::string why = {};                        ///< why no file was found, or what does not fit
+  std::vector<std::string> interfaces = {};  ///< what the design says of pins: "rst: reset high"
+  /// Where the files lie that they include, or read into memories.
+  std::vector<std::string> include_dirs = {};
+  std::string why = {};  ///< why no file was found, or what does not fit
 };
 
 /// Finds RTL of the owner's IP: by the component.xml of a packaged IP, which lists its files, else
@@ -42,6 +43,7 @@ class RtlFinder {
   RtlSources look(const Module& module) const;
   void add_primitives(RtlSources& sources) const;
   void add_includes(RtlSources& sources) const;
+  void add_data(RtlSources& sources) const;
   std::string file_of(const std::string& name, const std::string& user,
                       const std::vector<std::string>& taken) const;
   std::string included(const std::string& name, const std::string& by) const;
@@ -54,7 +56,7 @@ class RtlFinder {
   std::map<std::string, std::string> modules_;                  ///< name: its first file
   /// Of names that are declared in several files all of these.
   std::map<std::string, std::vector<std::string>> declared_twice_;
-  std::map<std::string, std::vector<std::string>> by_filename_;  ///< what Verilog may include
+  std::map<std::string, std::vector<std::string>> by_filename_;  ///< what RTL may include or read
 };
 
 }  // namespace platform::handoff

@@ -9,6 +9,7 @@
 #include <vp/report.h>
 #include <vp/text.h>
 #include <vp/unit.h>
+#include <xilinx/axi_dma/engine.h>
 
 namespace platform {
 
@@ -160,6 +161,20 @@ void EarlyReads::look_at_end(const xilinx::MemoryPort& port) {
                        vp::hex(static_cast<std::uint32_t>(order.address))));
 }
 
+// No mistake: a picture is to be shown after main(), too. But a run ends with its program.
+void EarlyReads::name_engines() const {
+  for (const xilinx::Engine* engine : vp::all_below<xilinx::Engine>(zynq_.pl())) {
+    const std::string what = engine->under_way();
+    if (what.empty()) continue;
+    const auto* object = dynamic_cast<const sc_core::sc_object*>(engine);
+    vp::info(*object, "/markervp/cpu/engine_runs",
+             what +
+                 " when the program ended, and the run with it: on the chip it runs on; let "
+                 "main() wait for as long as you want to see",
+             sc_core::SC_LOW);
+  }
+}
+
 void EarlyReads::finish() {
   for (const auto& [place, read] : std::exchange(reads_, {})) {
     if (!is_over_ && !read.polls) warn(read, true);
@@ -167,6 +182,7 @@ void EarlyReads::finish() {
   const ps::Cpu& cpu = zynq_.ps.cpu;
   if (cpu.state() != ps::Cpu::State::finished || cpu.reached_limit()) return;
   for (const xilinx::MemoryPort* port : ports_) look_at_end(*port);
+  name_engines();
 }
 
 }  // namespace platform

@@ -20,7 +20,8 @@ namespace platform {
 /// A program that waits by looking reads one address by one instruction, or one function
 /// where it was optimised, until it changes. So a read is a mistake where the same then reads
 /// another address of what is ordered, or reads none again until the end of the run. Rings and
-/// frames that go round on purpose are looked at in their first round only.
+/// frames that go round on purpose are looked at in their first round only. What runs without an
+/// end, or sends, is named when the program ends, and the run with it: on the chip it runs on.
 class EarlyReads {
  public:
   /// Of DMA engines below `zynq`'s logic, which outlives it, and so does `guard`.
@@ -59,6 +60,7 @@ class EarlyReads {
   Place place_of(std::uintptr_t instruction, const std::string& text) const;
   std::string orderer_of(std::uint64_t address) const;
   void look_at_end(const xilinx::MemoryPort& port);
+  void name_engines() const;
 
   Zynq& zynq_;
   ps::LineGuard& guard_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <regex>
 
+#include <fpga/synthesis/data_files.h>
 #include <fpga/synthesis/timing_graph.h>
 #include <fpga/synthesis/vhdl.h>
 #include <fpga/synthesis/yosys.h>
@@ -131,7 +132,7 @@ std::vector<std::pair<std::string, Parameters>> own_variants() {
           {"stream_crossing", {{"DEPTH", 256}}}};
 }
 
-/// The sources that the top needs, and what those include.
+/// The sources that the top needs, what those include, and what they read into memories.
 std::map<std::string, std::string> hashes_of(const Design& design) {
   static const std::regex include(R"re(`include\s+"([^"]+)")re");
   std::vector<fs::path> open = needed_by(design.top, design.sources);
@@ -153,6 +154,8 @@ std::map<std::string, std::string> hashes_of(const Design& design) {
       }
     }
   }
+  for (const auto& [name, file] : data_files_of(design))
+    hashes.emplace(file.filename().string(), host::file_hash(file.string()));
   return hashes;
 }
 

@@ -92,6 +92,8 @@ Design verilog_of(const Design& design, const fs::path& folder) {
   for (const fs::path& source : needed_by(design.top, design.sources)) {
     if (is_vhdl(source)) sources.push_back(fs::absolute(source).string());
   }
+  std::vector<std::string> folders;
+  for (const fs::path& include : design.includes) folders.push_back(fs::absolute(include).string());
   const std::set<std::string> booleans = boolean_generics(design);
   for (const auto& [name, value] : design.parameters) {
     const bool is_word = booleans.count(vp::lower(name)) != 0 && (value == 0 || value == 1);
@@ -101,7 +103,8 @@ Design verilog_of(const Design& design, const fs::path& folder) {
   const host::CommandEnd end = host::run_command(
       {"cmake", "-DNAME=markervp", "-DTOP=" + design.top, "-DFILE=" + verilog.string(),
        "-DGENERICS=" + list_of(generics), "-DOPTIONS=" + list_of(design.ghdl_options),
-       "-DSOURCES=" + list_of(sources), "-P", script.string()});
+       "-DSOURCES=" + list_of(sources), "-DRTL_INCLUDE_DIRS=" + list_of(folders), "-P",
+       script.string()});
   if (end.exit_code == host::no_such_command)
     throw vp::InputError("VHDL needs CMake and GHDL: apt-get install cmake ghdl");
   if (end.exit_code != 0) {

@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include <fpga/synthesis/data_files.h>
 #include <fpga/synthesis/simulation_text.h>
 #include <fpga/synthesis/vhdl.h>
 #include <host/document.h>
@@ -223,6 +224,18 @@ YosysFolder::YosysFolder(const Design& design)
   for (std::size_t i = 0; i < includes_.size(); ++i)
     fs::create_directory_symlink(fs::absolute(includes_[i]), scratch_ / include_link(i));
   vp::write_file((scratch_ / instance_file).string(), instance_of(design));
+  link_data();
+}
+
+/// Yosys looks for what memories are read from where it runs, then beside the source. A name that
+/// leads up is found from the source on.
+void YosysFolder::link_data() const {
+  for (const auto& [name, file] : data_files_of(design_)) {
+    const fs::path relative = fs::path(name).lexically_normal();
+    if (relative.is_absolute() || *relative.begin() == "..") continue;
+    fs::create_directories((scratch_ / relative.string()).parent_path());
+    fs::create_symlink(file, scratch_ / relative.string());
+  }
 }
 
 host::CommandEnd YosysFolder::run(const Script& script, unsigned seconds) {
@@ -346,6 +359,14 @@ void YosysFolder::refuse(const host::CommandEnd& end) const {
   if (std::regex_search(what, file, missing)) {
     synthesis::refuse(design_, place_of("`include", file[1], design_.top) + "no file '" +
                                    file[1].str() + "' to include: name its folder with --include");
+  }
+  static const std::regex data(R"(Can not open file `([^`']*)[`'] for \\?([$]\w+))");
+  if (std::regex_search(what, file, data)) {
+    const std::string call = place_of(file[2], file[1], design_.top);
+    synthesis::refuse(design_, (call.empty() ? where : call) + "no file '" + file[1].str() +
+                                   "' for " + file[2].str() +
+                                   " beside the source, nor below the folders of the sources and "
+                                   "of --include: its memory would have no words");
   }
   static const std::regex part(
       R"(Module `\\?([^']+)' referenced in module `(\$paramod[^\\]*\\)?\\?([^\\']+))");

@@ -45,6 +45,7 @@ class YosysFolder {
  private:
   host::CommandEnd run_script(const Script& script, unsigned seconds) const;
   std::string reading() const;
+  void link_data() const;
   bool read_only_what_is_needed();
   void copy_without_simulation();
   void refuse_endings() const;

@@ -142,6 +142,7 @@ BOOST_AUTO_TEST_CASE(frames_pass_from_memory_to_memory) {
       b.memory->data()[i] = static_cast<unsigned char>(i * 7 + (i >> 8));
     std::uint64_t began = 0, first = 0, second = 0;
     b.master.simulate([&] {
+      BOOST_TEST(b.vdma.s2mm()->under_way() == "");
       b.start(s2mm, circular | vdmacr::FrmCnt_IrqEn);
       b.start(mm2s, circular);
       began = b.now();
@@ -155,9 +156,14 @@ BOOST_AUTO_TEST_CASE(frames_pass_from_memory_to_memory) {
       first = next_interrupt();
       second = next_interrupt();
       while (b.vdma.s2mm()->frames.get() < 3) b.wait(1);
+      const std::string frame = " frames of " + std::to_string(lines) + " lines of " +
+                                std::to_string(line_bytes) + " bytes, ";
+      BOOST_TEST(b.vdma.s2mm()->under_way() == "S2MM was writing" + frame + "3 of them so far,");
+      BOOST_TEST(b.vdma.mm2s()->under_way().find("MM2S was sending" + frame) == 0u);
       b.master.write(mm2s.control, circular);
       b.wait(200);
       BOOST_TEST((b.master.read(mm2s.status) & vdmasr::Halted) != 0u);
+      BOOST_TEST(b.vdma.mm2s()->under_way() == "");
     });
     for (std::uint32_t store = 0; store < 3; ++store) {
       for (std::uint32_t line = 0; line < lines; ++line) {

@@ -49,8 +49,10 @@ enum class Mistake {
   // No mistakes:
   ahead_polls,  ///< a byte of the line is read until it comes
   ahead_again,  ///< the program has received all, and ends with the engine started again
+
+  left_sending,  ///< it ends while the line is being sent
 };
-constexpr int most = static_cast<int>(Mistake::ahead_again);
+constexpr int most = static_cast<int>(Mistake::left_sending);
 const hal_option_info options[] = {{"mistake", "", 0, 0, most, "what the program does wrong"},
                                    {"line", "", 0, 0, lines - 1, "in which line of the buffer"}};
 
@@ -241,6 +243,15 @@ int take_ahead() {
   return 0;
 }
 
+int leave_sending() {
+  hal_cache_flush(buffer, bytes);
+  const std::uint32_t dma = drivers::addresses::dma_image();
+  hal_write32(dma + axi_dma::MM2S_DMACR, axi_dma::dmacr::RS);
+  hal_write32(dma + axi_dma::MM2S_SA, bus_address + at / packet * packet);
+  hal_write32(dma + axi_dma::MM2S_LENGTH, packet);
+  return 0;
+}
+
 int run() {
   mistake = static_cast<Mistake>(static_cast<int>(hal_option(0)));
   at = static_cast<std::uint32_t>(hal_option(1)) * line;
@@ -248,6 +259,7 @@ int run() {
   buffer = static_cast<unsigned char*>(first.data);
   other = static_cast<unsigned char*>(hal_dma_allocate(bytes, line).data);
   bus_address = first.bus_address;
+  if (mistake == Mistake::left_sending) return leave_sending();
   if (mistake < Mistake::receive) return send_twice();
   return mistake < Mistake::ahead_all ? take() : take_ahead();
 }

@@ -34,16 +34,18 @@ const Bug endings[] = {
      "  assign busy = ring || started",
      "did not converge"},
 };
-// Its words would be random.
+// Its words would be random. A name that is constant is looked for when the RTL is built.
 const Bug no_memory = {"no_memory",
                        "frame_status",
                        "frame_status.sv",
                        "logic started;",
                        "logic started;\n  logic [7:0] words[4], word;\n"
-                       "  initial $readmemh(\"missing.hex\", words);\n"
+                       "  string name;\n"
+                       "  initial begin\n    name = \"missing\";\n"
+                       "    $readmemh({name, \".hex\"}, words);\n  end\n"
                        "  always_ff @(posedge clk) word <= words[word[1:0]];\n"
                        "  final $display(\"%d\", word);",
-                       "$readmem file not found: 'missing.hex'; a relative name starts where"};
+                       "$readmem or $fopen: file not found: 'missing.hex'; a name that the RTL puts"};
 const Bug no_reset = {"no_reset", "frame_status", "frame_status.sv", "      started <= 1'b0;\n",
                       "",         "busy"};
 

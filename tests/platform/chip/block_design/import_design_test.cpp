@@ -469,4 +469,22 @@ BOOST_AUTO_TEST_CASE(ten_thousand_parts) {
   BOOST_TEST(parse_design(design.text, "design.yaml").parts.size() == 10'010u);
 }
 
+BOOST_AUTO_TEST_CASE(interrupts_from_nothing_and_to_nothing_are_in_the_report) {
+  const auto report_of = [](const std::string& text) {
+    const auto handoff = platform::handoff::read_hwh(text, "small.hwh");
+    return import_report(handoff, import_design(handoff), "");
+  };
+  const char *never = "| nothing: open or a constant, so it never comes |",
+             *unread = "These reach nothing, so programs poll them: ";
+  const std::string whole = kit::replaced(kit::small_handoff().text(), R"(NAME="ip2intc_irpt")",
+                                          R"(NAME="ip2intc_irpt" SIGIS="INTERRUPT")");
+  BOOST_TEST(report_of(whole).find(never) == std::string::npos);
+  BOOST_TEST(report_of(whole).find(unread) == std::string::npos);
+  const std::string open =
+      report_of(kit::replaced(whole, R"(NAME="In1" SIGNAME="gpio_irpt")", R"(NAME="In1")"));
+  BOOST_TEST(open.find(std::string("| 63 ") + never) != std::string::npos, open);
+  BOOST_TEST(open.find(unread + std::string("`axi_gpio_0.ip2intc_irpt`.")) != std::string::npos,
+             open);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

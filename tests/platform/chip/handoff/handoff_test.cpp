@@ -198,6 +198,12 @@ BOOST_AUTO_TEST_CASE(an_archive_says_which_hand_off_is_the_design) {
   BOOST_TEST(read_handoff(path, "other").file == "a.xsa:other.hwh");
   BOOST_TEST(input_error([&] { read_handoff(path, "none"); }).find("has no design 'none'") !=
              std::string::npos);
+  archive(path, {{"a/small.hwh", design}, {"b/small.hwh", design}});
+  BOOST_TEST(input_error([&] {
+               read_handoff(path, "small");
+             }).find("has no design 'small': there is a/small.hwh or b/small.hwh") !=
+             std::string::npos);
+  BOOST_TEST(read_handoff(path, "b/small.hwh").file == "a.xsa:b/small.hwh");
 }
 
 BOOST_AUTO_TEST_CASE(an_archive_has_the_drivers_of_own_ip) {

@@ -80,6 +80,20 @@ BOOST_FIXTURE_TEST_CASE(a_module_by_its_name_with_what_it_instantiates, Folders)
   BOOST_TEST(sources.parameters == parameters);
 }
 
+BOOST_FIXTURE_TEST_CASE(folders_of_what_memories_read_are_named, Folders) {
+  write("plain/helper.sv",
+        "module helper(input clk); reg [7:0] m[0:1];\n"
+        "  initial begin $readmemh(\"C:/projects/old/rom.mem\", m); $readmemh(\"./own.dat\", m); "
+        "end\n"
+        "endmodule\n");
+  write("plain/own.dat", "0 1\n");
+  write("elsewhere/data/rom.mem", "0 1\n");
+  write("elsewhere/unused/ram.mem", "0 1\n");
+  const RtlSources sources = RtlFinder({folder("plain"), folder("elsewhere")}).find(own());
+  const Names expected{folder("elsewhere/data/")};
+  BOOST_TEST(sources.include_dirs == expected);
+}
+
 BOOST_FIXTURE_TEST_CASE(a_packaged_ip_by_its_list_of_files, Folders) {
   write_component("7", "../plain/helper.sv");
   const RtlSources sources = RtlFinder({folder("ip"), folder("plain")}).find(own("7"));

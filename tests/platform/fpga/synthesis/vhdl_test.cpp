@@ -3,6 +3,7 @@
 #include <fpga/synthesis/vhdl.h>
 
 #include <boost/test/unit_test.hpp>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -346,6 +347,54 @@ BOOST_AUTO_TEST_CASE(a_top_that_is_not_there_or_twice_is_refused) {
   check_says(refusal("conter"), {"no module or entity 'conter'", "name Counter"});
   write("counter.sv", "module counter(input logic clk); endmodule\n");
   check_says(refusal("counter"), {"counter.vhd", "a module of", "counter.sv"});
+}
+
+// GHDL makes an empty module of it.
+BOOST_AUTO_TEST_CASE(a_component_without_entity_is_refused) {
+  const std::string part = logic + R"(
+entity part is port (clk : in std_logic; q : out std_logic); end entity;
+architecture rtl of part is
+begin
+  process begin
+    wait for 500 ns;
+  end process;
+  q <= clk;
+end architecture;
+)";
+  write("top.vhd", logic + R"(
+entity top is port (clk : in std_logic; q : out std_logic); end entity;
+architecture rtl of top is
+  component part is port (clk : in std_logic; q : out std_logic); end component;
+  signal inner : std_logic;
+begin
+  one : part port map (clk => clk, q => inner);
+  process (clk) begin
+    if rising_edge(clk) then q <= inner; end if;
+  end process;
+end architecture;
+)");
+  check_says(refusal("top"),
+             {"GHDL cannot synthesise 'top': 'part' would be empty: add its source"});
+  std::string broken = part;
+  write("part.vhd", broken.replace(broken.find("500 ns"), 6, "500ns"));
+  check_says(refusal("top"), {"part.vhd:9:", "space is required between number and unit name",
+                              "'part' would be empty"});
+  std::string right = part;
+  const std::size_t process = right.find("  process begin"), end = right.find("  q <=");
+  write("part.vhd", right.erase(process, end - process));
+  BOOST_TEST(figures("top").netlist.cells.ff == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(a_memory_is_read_from_a_file_of_text) {
+  std::string text = kit::read_file(MARKERVP_SOURCE "/tests/models/axi/rtl/text_rom.vhd");
+  write("text_rom.vhd", text);
+  check_says(refusal("text_rom"), {"text_rom.vhd:15:", "cannot open file: ./bits.mem",
+                                   "there is no file './bits.mem' beside the source"});
+  std::filesystem::create_directory(folder / "data");
+  write("data/bits.mem", "00000000\n00000001\n00000010\n00000011\n");
+  const Figures made = figures("text_rom");
+  BOOST_TEST(made.netlist.cells.ff > 2u);
+  BOOST_TEST(made.sources.count("bits.mem") == 1u);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

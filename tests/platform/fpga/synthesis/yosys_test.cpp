@@ -115,6 +115,41 @@ BOOST_AUTO_TEST_CASE(figures_say_what_they_are_of) {
   BOOST_TEST(entry["sources"]["own.sv"] == figures.sources.at("own.sv"));
 }
 
+/// Two words of ROM behind an address; each bit of them that differs is logic.
+const char* const rom = R"(module own(input clk, at, output reg [7:0] word);
+  reg [7:0] words[0:1];
+  initial $readmemh("./rom.dat", words);
+  always @(posedge clk) word <= words[at];
+endmodule
+)";
+
+BOOST_AUTO_TEST_CASE(memories_are_read_from_files_below_the_sources) {
+  std::filesystem::create_directory(folder / "data");
+  kit::write_file(folder / "data/rom.dat", "00\nff\n");
+  const Figures figures = synthesise(design(rom, "own"), timing);
+  BOOST_TEST(figures.netlist.cells.ff > 0u);
+  BOOST_TEST(figures.sources.at("rom.dat") == platform::host::file_hash(folder / "data/rom.dat"));
+  kit::write_file(folder / "data/rom.dat", "00\n00\n");
+  BOOST_TEST(synthesise(design(rom, "own"), timing).netlist.cells.ff < figures.netlist.cells.ff,
+             "the words are those of the file");
+
+  kit::write_file(folder / "data/rom.dat", "00\nff\n");
+  const std::string displaying = std::string(rom).replace(
+      std::string(rom).find("  initial"), 0, "  initial $display(\"%2d\", 1'b1 + 1);\n");
+  BOOST_TEST(synthesise(design(displaying, "own"), timing).netlist.cells.ff ==
+             figures.netlist.cells.ff);
+}
+
+BOOST_AUTO_TEST_CASE(a_memory_without_its_file_is_refused) {
+  check_says(refusal(rom),
+             {"own.sv:3: no file './rom.dat' for $readmemh", "its memory would have no words"});
+  for (const char* name : {"a", "b"}) {
+    std::filesystem::create_directory(folder / name);
+    kit::write_file(folder / name + "/rom.dat", std::string("0") + name);
+  }
+  check_says(refusal(rom), {"own.sv: './rom.dat' may be '", "/a/rom.dat' or '", "which differ"});
+}
+
 // Of a type or of none: -5 is less than 0 in both.
 BOOST_AUTO_TEST_CASE(a_width_in_the_format_of_a_display_is_no_obstacle) {
   const std::string text = R"(module own (input logic clk, d, output logic q);
