@@ -49,8 +49,8 @@ struct Application {
   std::vector<Requirement> requirements = {};
   /// Lines for the summary of a run; may be null.
   std::vector<std::string> (*summary_lines)(const facts::Summary&) = nullptr;
-  /// Draws a unit into a file of the folder, unless there is nothing to see; returns whether it did.
-  /// May be null.
+  /// Draws a unit into a file of the folder, unless there is nothing to see; returns whether it
+  /// did. May be null.
   bool (*draw)(const facts::UnitReport& unit, host::OutputFolder& folder) = nullptr;
   /// What the page shows of a unit, a JSON text; may be null.
   std::string (*page_view)(const facts::UnitReport& unit) = nullptr;

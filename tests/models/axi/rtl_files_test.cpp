@@ -1,7 +1,7 @@
 // What RTL reads into memories: found when it is built, and a part of the object.
 #include <axi/rtl_part.h>
-#include <simulation.h>
 #include <child_process.h>
+#include <simulation.h>
 #include <temporary_files.h>
 #include <vp/clock.h>
 #include <boost/test/unit_test.hpp>
@@ -88,7 +88,8 @@ BOOST_AUTO_TEST_CASE(memories_have_their_words_wherever_the_object_is) {
 #ifdef MARKERVP_TEXT_ROM_RTL
 BOOST_AUTO_TEST_CASE(memories_of_vhdl_have_their_words) {
   const std::vector<std::uint8_t> words{0x10, 0x20, 0x30, 0x40};
-  BOOST_TEST(words_of<std::uint8_t>(MARKERVP_TEXT_ROM_RTL) == words, boost::test_tools::per_element());
+  BOOST_TEST(words_of<std::uint8_t>(MARKERVP_TEXT_ROM_RTL) == words,
+             boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(a_file_that_vhdl_lacks_is_refused_with_its_line) {

@@ -35,17 +35,18 @@ const Bug endings[] = {
      "did not converge"},
 };
 // Its words would be random. A name that is constant is looked for when the RTL is built.
-const Bug no_memory = {"no_memory",
-                       "frame_status",
-                       "frame_status.sv",
-                       "logic started;",
-                       "logic started;\n  logic [7:0] words[4], word;\n"
-                       "  string name;\n"
-                       "  initial begin\n    name = \"missing\";\n"
-                       "    $readmemh({name, \".hex\"}, words);\n  end\n"
-                       "  always_ff @(posedge clk) word <= words[word[1:0]];\n"
-                       "  final $display(\"%d\", word);",
-                       "$readmem or $fopen: file not found: 'missing.hex'; a name that the RTL puts"};
+const Bug no_memory = {
+    "no_memory",
+    "frame_status",
+    "frame_status.sv",
+    "logic started;",
+    "logic started;\n  logic [7:0] words[4], word;\n"
+    "  string name;\n"
+    "  initial begin\n    name = \"missing\";\n"
+    "    $readmemh({name, \".hex\"}, words);\n  end\n"
+    "  always_ff @(posedge clk) word <= words[word[1:0]];\n"
+    "  final $display(\"%d\", word);",
+    "$readmem or $fopen: file not found: 'missing.hex'; a name that the RTL puts"};
 const Bug no_reset = {"no_reset", "frame_status", "frame_status.sv", "      started <= 1'b0;\n",
                       "",         "busy"};
 
