@@ -235,7 +235,7 @@ class InnerEdges {
     for (std::int32_t beside = -1; beside <= 1; ++beside) {
       for (std::int32_t step = 0; step < 4; ++step) {
         const std::int32_t across = (edge.dark_first ? 0 : 1) + (step - 1) * out;
-        light[static_cast<std::size_t>(beside + 1)][static_cast<std::size_t>(step)] =
+        light[static_cast<std::size_t>(beside) + 1][static_cast<std::size_t>(step)] =
             edge.is_upright ? light_of(edge.row, edge.column, beside, across)
                             : light_of(edge.row, edge.column, across, beside);
       }
