@@ -71,6 +71,23 @@ BOOST_FIXTURE_TEST_CASE(faults_are_drawn_over_what_was_imported, Imported) {
   BOOST_TEST(campaign.at("modules").dump().find("pl.axi_dma_0") != std::string::npos);
 }
 
+BOOST_FIXTURE_TEST_CASE(a_program_that_sends_again_recovers_from_faults_of_streams, Imported) {
+  import();
+  const auto counts = [this](const std::string& more) {
+    kit::write_file(*this / "c.yaml", "design: mine/design.yaml\nprogram: " MARKERVP_PACKETS
+                                      "\ncount: 60\nclasses: stream\n" +
+                                          more);
+    const kit::Outcome outcome = markervp({"faults", "c.yaml", "--quiet", "-o", "faults"});
+    BOOST_TEST(outcome.exit_code == 0, outcome.err);
+    return Json::parse(kit::read_file(*this / "faults/faults.json")).at("all");
+  };
+  const Json noticed = counts("noticed: again\n");
+  BOOST_TEST(noticed.at("recovered").get<int>() > 50);
+  BOOST_TEST(noticed.at("unnoticed") == 0);
+  // Without the key a line more is text that is wrong.
+  BOOST_TEST(counts("").at("unnoticed") == noticed.at("recovered"));
+}
+
 BOOST_FIXTURE_TEST_CASE(streams_of_other_widths_carry_the_same_bytes, Imported) {
   for (const auto& [stream, memory] : {std::pair{"8", "32"}, {"64", "128"}}) {
     std::string parameters = kit::parameter("C_SG_LENGTH_WIDTH", "20");
