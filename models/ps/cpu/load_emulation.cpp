@@ -14,7 +14,8 @@ namespace ps {
 
 namespace {
 
-/// Of a general register, whichever part of it is named; null: it is none.
+/// Where the context has a general register, whichever part of it is named; null for other
+/// registers.
 greg_t* place_of(ucontext_t& context, ZydisRegister named) {
   // As Zydis counts them, from RAX on.
   static constexpr int places[] = {REG_RAX, REG_RCX, REG_RDX, REG_RBX, REG_RSP, REG_RBP,

@@ -220,7 +220,7 @@ Placed BlockDesign::place_processing_system(const PlacedPart& part) {
   return placed;
 }
 
-/// Core 1 has no private interrupts of the logic here. A constant is none.
+/// Private interrupts of core 1 are not modelled. A constant at the pin needs no warning.
 void BlockDesign::tell_of_lost_interrupt(const std::string& pin, const End& source) {
   const PlacedPart* driver = design_.part(source.part);
   const IpRule* rule = driver ? driver->rule() : nullptr;

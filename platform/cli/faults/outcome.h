@@ -14,10 +14,10 @@ struct Witness {
   nlohmann::ordered_json units = nlohmann::ordered_json::array();  ///< results, without times
   std::vector<bool> told;             ///< by unit: it says itself that something is wrong
   std::vector<std::string> warnings;  ///< of the whole run, without times
-  /// Of the console, where no unit has data of its own: what the program delivers is its text.
+  /// What the console shows, where no unit has data: then the program's text is its result.
   std::vector<std::string> lines;
-  std::vector<std::string>
-      notices;         ///< lines of the console in which the program noticed something
+  /// Lines of the console in which the program says that it noticed something.
+  std::vector<std::string> notices;
   bool ended = false;  ///< the program came to its end
   int exit_code = 0;
   std::string error;  ///< what ended the run early
@@ -35,7 +35,7 @@ struct Witness {
   bool has_data_ = false;
 };
 
-/// What a fault came to. Of a program whose units have no data, its console counts as one.
+/// What a fault came to. Where units have no data, the text on the console counts as a unit.
 ///
 ///   | Outcome   | The units of work                                                             |
 ///   |-----------|-------------------------------------------------------------------------------|
