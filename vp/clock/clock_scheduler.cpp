@@ -100,6 +100,13 @@ void ClockScheduler::commit_deferred() {
   deferred_.clear();
 }
 
+bool ClockScheduler::has_more(std::uint64_t ps) const {
+  if (next_ps_ < ps) return true;
+  if (!sc_core::sc_pending_activity()) return false;
+  return ps == Clock::never ||
+         to_ps(sc_core::sc_time_stamp() + sc_core::sc_time_to_pending_activity()) < ps;
+}
+
 void ClockScheduler::run_due_instants() {
   if (running_) return;
   const std::uint64_t now = now_ps();

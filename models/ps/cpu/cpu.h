@@ -330,7 +330,6 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   }
   void run_handler();
   void leave_interrupt();
-  bool more_happens() const;
   bool lives_after_main() const;
   void stay_after_main();
   void tell_cache(CacheCall call, const void* data, std::size_t size) const;
@@ -402,7 +401,7 @@ class Cpu : public sc_core::sc_module, public vp::SignalListener, private vp::Cl
   std::uint64_t end_ps_ = 0;
   bool reached_limit_ = false;
   std::optional<std::uint64_t> main_end_ps_;
-  std::optional<std::uint64_t> give_up_ps_;
+  std::uint64_t give_up_ps_ = vp::Clock::never;
   std::optional<std::uint64_t> over_ps_;  ///< the end, where nothing was left to do after main()
   bool works_after_main_ = false;
   std::exception_ptr error_;

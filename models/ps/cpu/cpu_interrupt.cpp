@@ -84,18 +84,10 @@ void Cpu::leave_interrupt() {
   std::swap(ahead, timeline_);
 }
 
-bool Cpu::more_happens() const {
-  if (!scheduler_.has_more()) return false;
-  if (!give_up_ps_ || !scheduler_.up_to_date(vp::Clock::never - 1)) return true;
-  const std::uint64_t next_ps =
-      vp::to_ps(sc_core::sc_time_stamp() + sc_core::sc_time_to_pending_activity());
-  return next_ps < *give_up_ps_;
-}
-
 bool Cpu::lives_after_main() const {
   const bool served = irq_.interruptible() && irq_.handler() && surroundings.any_interrupt();
   return (served || beside_other()) &&
-         (interrupt_due() || deadline_.wants_look() || more_happens());
+         (interrupt_due() || deadline_.wants_look() || scheduler_.has_more(give_up_ps_));
 }
 
 // Behind main() the vendor's exit() loops for ever: interrupts are served, and the other core runs

@@ -75,8 +75,9 @@ class ClockScheduler : public sc_core::sc_module {
     instant_ps_ = ps;
     return true;
   }
-  /// Something will still happen by itself: an edge that a module waits for, or an event.
-  bool has_more() const { return next_ps_ != Clock::never || sc_core::sc_pending_activity(); }
+  /// Something will still happen by itself before `ps`: an edge that a module waits for, or an
+  /// event. Clock::never: at any time.
+  bool has_more(std::uint64_t ps) const;
   /// Nothing happens up to `ps`, as far as that is known.
   bool is_quiet_until(std::uint64_t ps) const { return ps < next_ps_ && ps <= known_horizon(); }
   /// No clock edge up to now is left to run.
